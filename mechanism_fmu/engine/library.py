@@ -17,6 +17,7 @@ from .compiler.just_in_time import compiled_inner
 from .compiler.machine_code import InnerCompiler
 from .elementary import atan2, cos, sin, tan
 from .exchange.happenings import exchange
+from .exchange.sensitivities import respond
 from .outputs import read_output_rates, read_outputs
 from .starting.begin import begin
 from .stepping.stepper import begin_step, go_on
@@ -29,7 +30,7 @@ def _part(entry: Any) -> Any:
 
 _BEGIN, _BEGIN_STEP, _GO_ON = _part(begin), _part(begin_step), _part(go_on)
 _READ_OUTPUTS, _READ_OUTPUT_RATES = _part(read_outputs), _part(read_output_rates)
-_EXCHANGE = _part(exchange)
+_EXCHANGE, _RESPOND = _part(exchange), _part(respond)
 
 _BLOCK = types.CPointer(types.float64)
 _OPTIONS: dict[str, Any] = {"nopython": True, "error_model": "numpy", "boundscheck": False, "fastmath": False}
@@ -63,6 +64,10 @@ def _exchange(block: Any, words: int, what: int, time: float) -> int:
     return status
 
 
+def _respond(block: Any, words: int) -> None:
+    _RESPOND(carray(block, (words,)))
+
+
 def _sin(x: float) -> float:
     return sin(x)
 
@@ -87,6 +92,7 @@ EXPORTS: dict[str, tuple[Callable[..., Any], Any]] = {
     "mechanism_read_outputs": (_read_outputs, types.void(_BLOCK, types.int64)),
     "mechanism_read_output_rates": (_read_output_rates, types.void(_BLOCK, types.int64)),
     "mechanism_exchange": (_exchange, types.int64(_BLOCK, types.int64, types.int64, types.float64)),
+    "mechanism_respond": (_respond, types.void(_BLOCK, types.int64)),
     # what the formulas of a model call
     "mechanism_sin": (_sin, types.float64(types.float64)),
     "mechanism_cos": (_cos, types.float64(types.float64)),

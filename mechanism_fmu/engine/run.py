@@ -30,6 +30,7 @@ _SIGNATURES: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "read_outputs": (None, ()),
     "read_output_rates": (None, ()),
     "exchange": (_STATUS, (ctypes.c_int64, _TIME)),
+    "respond": (None, ()),
 }
 
 
@@ -38,7 +39,7 @@ class NotCompiledError(RuntimeError):
 
 
 class Engine(NamedTuple):
-    """The entry points for one block: see `begin`, `stepper`, `outputs`, and `happenings`."""
+    """The entry points for one block: see `begin`, `stepper`, `outputs`, `happenings`, `sensitivities`."""
 
     begin: Callable[[float], int]
     advance: Callable[[float], int]
@@ -47,6 +48,7 @@ class Engine(NamedTuple):
     read_outputs: Callable[[], None]
     read_output_rates: Callable[[], None]
     exchange: Callable[[int, float], int]
+    respond: Callable[[], None]
 
 
 def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
@@ -70,11 +72,12 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
             "installed. Install it: python -m pip install numba; in a clone: python -m pip install -e '.[dev]'"
         )
     from .exchange.happenings import exchange
+    from .exchange.sensitivities import respond
     from .outputs import read_output_rates, read_outputs
     from .starting.begin import begin
     from .stepping.stepper import advance, begin_step, go_on
 
-    entries: list[Any] = [begin, advance, begin_step, go_on, read_outputs, read_output_rates, exchange]
+    entries: list[Any] = [begin, advance, begin_step, go_on, read_outputs, read_output_rates, exchange, respond]
     return Engine(*(partial(function, block) for function in entries))
 
 

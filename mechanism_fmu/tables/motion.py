@@ -318,6 +318,28 @@ class Exchange(Table, rows="guards", prefix="exchange_"):
     next_piece = real(1, alone=True, name="exchange_next_piece", work=True)
 
 
+#: So many steps of difference quotients are tried (`engine.exchange.sensitivities`).
+LEVELS = 8
+
+
+class Sensitivity(Table, rows="responses", prefix="response_"):
+    """Scratch of directional derivatives.
+
+    Along which change of inputs and states they are; what these and the derivatives are before; the result, outputs
+    first, then derivatives of the states, and an estimate of its error; difference quotients, and what is extrapolated.
+    """
+
+    input_seed = real("inputs", alone=True, name="input_seed", work=True)
+    state_seed = real("unknowns", alone=True, name="state_seed", work=True)
+    inputs = real("inputs", alone=True, name="response_inputs", work=True)
+    states = real("unknowns", alone=True, name="response_states", work=True)
+    rates = real("unknowns", alone=True, name="response_rates", work=True)
+    response = real(name="response", work=True)
+    error = real(work=True)
+    quotient = real(work=True)
+    tableau = real(LEVELS, "responses", alone=True, name="response_tableau", work=True)
+
+
 class Rubs(Table, rows="rubs", prefix="rub_"):
     """Friction of contacts, in their order, of joints, and of brakes among the force elements.
 

@@ -81,6 +81,8 @@ class Sizes:
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
     # of Model Exchange: one for each guard, and one for how far the bodies have turned
     indicators = _follows(lambda n: n["guards"] + 1)
+    # what directional derivatives are of: outputs, and derivatives of the states
+    responses = _follows(lambda n: n["outputs"] + n["unknowns"])
     rub_columns = _follows(lambda n: n["rubs"] + 1)
     # unknowns of the complementarity problem of contacts with friction, and columns of its tableau
     problem = _follows(lambda n: 4 * n["contacts"] if n["rubs"] > 0 else 0)

@@ -201,6 +201,8 @@ def _interfaces(root: Element, model: Model) -> None:
         canGetAndSetFMUState="true",
         canSerializeFMUState="true",
         needsCompletedIntegratorStep="true",
+        providesDirectionalDerivatives="true",
+        providesAdjointDerivatives="true",
     )
     SubElement(
         root,
@@ -209,6 +211,8 @@ def _interfaces(root: Element, model: Model) -> None:
         canGetAndSetFMUState="true",
         canSerializeFMUState="true",
         canHandleVariableCommunicationStepSize="true",
+        providesDirectionalDerivatives="true",
+        providesAdjointDerivatives="true",
         maxOutputDerivativeOrder="1",
         providesIntermediateUpdate="true",
         mightReturnEarlyFromDoStep="true",

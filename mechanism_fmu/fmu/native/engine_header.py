@@ -18,6 +18,7 @@ int64_t mechanism_go_on(double *block, int64_t words, double target, int64_t rul
 int mechanism_read_outputs(double *block, int64_t words); /* without a result, which only WebAssembly would notice */
 int mechanism_read_output_rates(double *block, int64_t words);
 int64_t mechanism_exchange(double *block, int64_t words, int64_t what, double time);
+int mechanism_respond(double *block, int64_t words);
 /* const: a call may be moved to where its result is used, or the formulas' results would fill kilobytes of stack */
 __attribute__((const)) double mechanism_sin(double x);
 __attribute__((const)) double mechanism_cos(double x);

@@ -33,7 +33,13 @@ NO_SOURCES = "no_sources.c"
 
 #: Capability flags in which the flavours differ. Of the machine that runs it, the one by pythonfmu asks for a Python.
 _BY_PYTHONFMU = {"needsExecutionTool": "true", "canNotUseMemoryManagementFunctions": "true"}
-_NATIVE = {"needsExecutionTool": "false", "canInterpolateInputs": "true", "maxOutputDerivativeOrder": "1"}
+_DERIVATIVES = {"providesDirectionalDerivative": "true"}
+_NATIVE = {
+    "needsExecutionTool": "false",
+    "canInterpolateInputs": "true",
+    "maxOutputDerivativeOrder": "1",
+    **_DERIVATIVES,
+}
 
 #: Declared type (its name is also the quantity, as in the Modelica Standard Library) of a unit.
 _TYPES = {
@@ -72,7 +78,7 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
         mechanism = model.mechanism(model.values())
         variables += state_variables(mechanism, FIRST_REFERENCE + len(variables))
         root.set("numberOfEventIndicators", str(indicator_count(mechanism)))
-        _interface(root, "ModelExchange", model, {"needsExecutionTool": "false"})
+        _interface(root, "ModelExchange", model, {"needsExecutionTool": "false", **_DERIVATIVES})
     co_simulation = {"canHandleVariableCommunicationStepSize": "true", **(_NATIVE if native else _BY_PYTHONFMU)}
     _interface(root, "CoSimulation", model, co_simulation)
     types, elements = definitions(root, model, variables, _simple_type)

@@ -145,3 +145,95 @@ double exchanged(Instance *x, unsigned vr) {
     ask(x, CODE_EXCHANGE_INDICATORS);
     return FIELD(x, exchange_indicator)[k - 2 * n];
 }
+
+/* --- directional derivatives --- */
+
+/* Where the derivative of an unknown stands: of an output that varies continuously, or of a state's derivative. */
+static Status unknown_place(Instance *x, const char *call, unsigned vr, size_t *place) {
+    size_t k = vr - first_exchanged(x), n = state_count(x);
+    if (is_exchanged(x, vr) && k >= n && k < 2 * n) {
+        *place = SIZE(x, outputs) + (k - n); /* behind calculated parameters */
+        return OK;
+    }
+    size_t output = vr - 1 - model.inputs;
+    if (vr > model.inputs && output < model.outputs && model.variables[vr - 1].continuous) {
+        *place = output;
+        return OK;
+    }
+    return refuse(x, "%s: the variable with value reference %u is no continuous output and no derivative of a state.", call,
+                  vr);
+}
+
+/* Where the seed of a known stands: of an input, or in Model Exchange of a state. */
+static double *known_place(Instance *x, const char *call, unsigned vr) {
+    if (vr >= 1 && vr <= model.inputs) return FIELD(x, input_seed) + (vr - 1);
+    if (x->exchange && is_exchanged(x, vr) && vr - first_exchanged(x) < state_count(x))
+        return FIELD(x, state_seed) + (vr - first_exchanged(x));
+    refuse(x, "%s: the variable with value reference %u is no input%s.", call, vr,
+           x->exchange ? " and no state" : "; derivatives by states are for Model Exchange");
+    return NULL;
+}
+
+static Status ready(Instance *x, const char *call, const void *a, const void *b, const void *c, const void *d) {
+    if (!a || !b || !c || !d) return refuse(x, "%s: a pointer is null.", call);
+    if (require(x, call, IN(INITIALIZATION) | IN(STEPPING) | RUNNING | IN(TERMINATED)) != OK || prepare(x) != OK)
+        return ERROR;
+    memset(FIELD(x, input_seed), 0, model.inputs * sizeof(double));
+    memset(FIELD(x, state_seed), 0, state_count(x) * sizeof(double));
+    return OK;
+}
+
+static Status check_finite(Instance *x, const char *call, double value) {
+    if (isfinite(value)) return OK;
+    say(x, DISCARD, "logStatusDiscard", "%s: there is no derivative here: nothing finite comes of a small change.", call);
+    return DISCARD;
+}
+
+Status directional(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
+                   size_t knowns, const double seed[], double value[]) {
+    if (unknowns == 0) return OK;
+    if (ready(x, call, unknown, knowns ? (const void *)known : unknown, knowns ? (const void *)seed : unknown, value) != OK)
+        return ERROR;
+    size_t place;
+    for (size_t k = 0; k < unknowns; k++)
+        if (unknown_place(x, call, unknown[k], &place) != OK) return ERROR;
+    for (size_t k = 0; k < knowns; k++) {
+        double *to = known_place(x, call, known[k]);
+        if (!to) return ERROR;
+        *to += seed[k];
+    }
+    mechanism_respond(x->block, (int64_t)model.words);
+    x->outputs_read = 0;
+    for (size_t k = 0; k < unknowns; k++) {
+        unknown_place(x, call, unknown[k], &place);
+        value[k] = FIELD(x, response)[place];
+        if (check_finite(x, call, value[k]) != OK) return DISCARD;
+    }
+    return OK;
+}
+
+/* A derivative for each known, one after the other. */
+Status adjoint(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
+               size_t knowns, const double seed[], double value[]) {
+    if (knowns == 0) return OK;
+    if (ready(x, call, known, unknowns ? (const void *)unknown : known, unknowns ? (const void *)seed : known, value) != OK)
+        return ERROR;
+    size_t place;
+    for (size_t k = 0; k < unknowns; k++)
+        if (unknown_place(x, call, unknown[k], &place) != OK) return ERROR;
+    for (size_t k = 0; k < knowns; k++) {
+        double *to = known_place(x, call, known[k]);
+        if (!to) return ERROR;
+        *to = 1;
+        mechanism_respond(x->block, (int64_t)model.words);
+        *to = 0;
+        value[k] = 0;
+        for (size_t u = 0; u < unknowns; u++) {
+            unknown_place(x, call, unknown[u], &place);
+            value[k] += seed[u] * FIELD(x, response)[place];
+        }
+        if (check_finite(x, call, value[k]) != OK) return DISCARD;
+    }
+    x->outputs_read = 0;
+    return OK;
+}

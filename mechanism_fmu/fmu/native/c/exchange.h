@@ -22,6 +22,12 @@ Status get_derivatives(Instance *x, const char *call, double derivatives[], size
 Status get_nominals(Instance *x, const char *call, double nominals[], size_t count);
 Status get_indicators(Instance *x, const char *call, double indicators[], size_t count);
 
+/* Directional derivatives of outputs, and of derivatives of states, by inputs, and in Model Exchange by states. */
+Status directional(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
+                   size_t knowns, const double seed[], double value[]);
+Status adjoint(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
+               size_t knowns, const double seed[], double value[]);
+
 /* Variables of their own, behind all others: states, their derivatives, and in FMI 3.0 the event indicators. */
 int is_exchanged(const Instance *x, unsigned vr);
 unsigned last_exchanged(const Instance *x);

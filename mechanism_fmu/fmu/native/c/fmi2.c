@@ -149,8 +149,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2ValueReference known[], size_t knowns, const fmi2Real seed[],
                                         fmi2Real value[]) {
     SELF(c);
-    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)value;
-    return (fmi2Status)refuse(x, "fmi2GetDirectionalDerivative is not provided (see providesDirectionalDerivative).");
+    return (fmi2Status)directional(x, "fmi2GetDirectionalDerivative", unknown, unknowns, known, knowns, seed, value);
 }
 
 /* --- state --- */

@@ -479,6 +479,26 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *count) {
     return give_count(x, "fmi3GetNumberOfContinuousStates", count, SIZE(x, unknowns));
 }
 
+/* --- directional derivatives --- */
+
+static Status check_counts(const Instance *x, const char *call, size_t references, size_t numbers) {
+    if (references == numbers) return OK;
+    return refuse(x, "%s: %zu numbers for %zu variables, all of which are scalars.", call, numbers, references);
+}
+
+#define DERIVATIVE(Name, function, seeded, valued)                                                                     \
+    fmi3Status fmi3Get##Name(fmi3Instance c, const fmi3ValueReference unknown[], size_t unknowns,                      \
+                             const fmi3ValueReference known[], size_t knowns, const fmi3Float64 seed[], size_t seeds,  \
+                             fmi3Float64 value[], size_t values) {                                                     \
+        SELF(c);                                                                                                       \
+        if (check_counts(x, "fmi3Get" #Name, seeded, seeds) != OK || check_counts(x, "fmi3Get" #Name, valued, values)) \
+            return fmi3Error;                                                                                          \
+        return (fmi3Status)function(x, "fmi3Get" #Name, unknown, unknowns, known, knowns, seed, value);                \
+    }
+
+DERIVATIVE(DirectionalDerivative, directional, knowns, unknowns)
+DERIVATIVE(AdjointDerivative, adjoint, unknowns, knowns)
+
 /* --- what this FMU does not have --- */
 
 #define REFUSES(function, why, ...)                            \
@@ -493,19 +513,12 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance c, size_t *count) {
     }
 
 #define NO_ELEMENTS "dependencies are in modelDescription.xml; those of elements are not provided."
-#define NO_PARTIALS "partial derivatives are not provided."
 #define NO_STRUCTURE "there are no structural parameters."
 #define NO_INTERVALS "the clock is triggered by impacts and has no interval or shift."
 
 REFUSES(fmi3GetNumberOfVariableDependencies, NO_ELEMENTS, fmi3ValueReference vr, size_t *count)
 REFUSES(fmi3GetVariableDependencies, NO_ELEMENTS, fmi3ValueReference dependent, size_t dependent_elements[],
         fmi3ValueReference independents[], size_t independent_elements[], fmi3DependencyKind kinds[], size_t count)
-REFUSES(fmi3GetDirectionalDerivative, NO_PARTIALS, const fmi3ValueReference unknowns[], size_t unknown_count,
-        const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[], size_t seed_count,
-        fmi3Float64 sensitivity[], size_t sensitivity_count)
-REFUSES(fmi3GetAdjointDerivative, NO_PARTIALS, const fmi3ValueReference unknowns[], size_t unknown_count,
-        const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[], size_t seed_count,
-        fmi3Float64 sensitivity[], size_t sensitivity_count)
 REFUSES_ALONE(fmi3EnterConfigurationMode, NO_STRUCTURE)
 REFUSES_ALONE(fmi3ExitConfigurationMode, NO_STRUCTURE)
 REFUSES(fmi3GetIntervalDecimal, NO_INTERVALS, const fmi3ValueReference vr[], size_t count, fmi3Float64 intervals[],

@@ -27,3 +27,5 @@ EXPORT void engine_read_output_rates(double *block, int64_t words) { mechanism_r
 EXPORT int64_t engine_exchange(double *block, int64_t words, int64_t what, double time) {
     return mechanism_exchange(block, words, what, time);
 }
+
+EXPORT void engine_respond(double *block, int64_t words) { mechanism_respond(block, words); }
