@@ -20,6 +20,7 @@
 
 enum { STEPS = 200, SLOTS = 4, MOST_VALUES = 6, ALL = 4000 };
 
+static int may_exchange, with_exchange; /* Model Exchange */
 static int fmi, with_event_mode, with_early_return, with_updates;
 static uint64_t seed, calls, calls_with_forged, forged, accepted, done, by_status[8];
 static int forging; /* calls now are about a forged state */
@@ -109,7 +110,11 @@ static void make(void) {
     static const fmi2CallbackFunctions host = {tell2, NULL, NULL, NULL, NULL};
     calls++;
     with_event_mode = model.has_clock || below(2), with_early_return = (int)below(2), with_updates = below(4) == 0;
-    if (fmi == 2) x = fmi2Instantiate("fuzz", fmi2CoSimulation, model.guid, NULL, below(8) ? &host : NULL, 0, below(8) > 0);
+    with_exchange = may_exchange && below(3) == 0;
+    if (fmi == 2)
+        x = fmi2Instantiate("fuzz", with_exchange ? fmi2ModelExchange : fmi2CoSimulation, model.guid, NULL, below(8) ? &host : NULL, 0, below(8) > 0);
+    else if (with_exchange)
+        x = fmi3InstantiateModelExchange("fuzz", model.guid, NULL, 0, below(8) > 0, NULL, below(8) ? tell3 : NULL);
     else
         x = fmi3InstantiateCoSimulation("fuzz", model.guid, NULL, 0, below(8) > 0, with_event_mode, with_early_return, NULL,
                                         0, NULL, below(8) ? tell3 : NULL, with_updates ? update3 : NULL);
@@ -265,6 +270,64 @@ static void begin(int well) {
     for (int which = 0; well && which < 4; which++) onward(which, 1);
 }
 
+/* --- Model Exchange --- */
+
+/* One of the calls that give or take numbers of all states or indicators; mostly with the right count. */
+static void numbers(int which) {
+    size_t states = SIZE(x, unknowns), count = which == 3 ? SIZE(x, indicators) : states;
+    double *value = calloc(states + SIZE(x, indicators) + 1, sizeof *value);
+    if (below(16) == 0) count += below(2) ? 1 : (size_t)-1;
+    if (which == 4) {
+        memcpy(value, FIELD(x, y_end), states * sizeof *value);
+        for (size_t k = 0; k < states; k++) value[k] += 1e-3 * (uniform() - 0.5) * (below(3) == 0);
+        if (below(8) == 0) value[below(states)] = any_number();
+    }
+    switch (which) {
+        case 0: counted(fmi == 2 ? (int)fmi2GetContinuousStates(x, value, count) : (int)fmi3GetContinuousStates(x, value, count)); break;
+        case 1: counted(fmi == 2 ? (int)fmi2GetDerivatives(x, value, count) : (int)fmi3GetContinuousStateDerivatives(x, value, count)); break;
+        case 2: counted(fmi == 2 ? (int)fmi2GetNominalsOfContinuousStates(x, value, count) : (int)fmi3GetNominalsOfContinuousStates(x, value, count)); break;
+        case 3: counted(fmi == 2 ? (int)fmi2GetEventIndicators(x, value, count) : (int)fmi3GetEventIndicators(x, value, count)); break;
+        default: counted(fmi == 2 ? (int)fmi2SetContinuousStates(x, value, count) : (int)fmi3SetContinuousStates(x, value, count));
+    }
+    free(value);
+}
+
+static void events(void) {
+    fmi2EventInfo info;
+    fmi3Boolean flags[5];
+    double when;
+    counted(fmi == 2 ? (int)fmi2EnterEventMode(x) : (int)fmi3EnterEventMode(x));
+    counted(fmi == 2 ? (int)fmi2NewDiscreteStates(x, &info)
+                     : (int)fmi3UpdateDiscreteStates(x, flags, flags + 1, flags + 2, flags + 3, flags + 4, &when));
+    if (below(8)) counted(fmi == 2 ? (int)fmi2EnterContinuousTimeMode(x) : (int)fmi3EnterContinuousTimeMode(x));
+}
+
+static void exchange(void) {
+    int two, more;
+    fmi3Boolean enter, end;
+    double at = below(8) ? now() + 1e-3 * uniform() : any_number(), values[MOST_VALUES], seeds[MOST_VALUES];
+    unsigned unknown[MOST_VALUES], known[MOST_VALUES];
+    switch (below(8)) {
+        case 0: events(); break;
+        case 1: counted(fmi == 2 ? (int)fmi2SetTime(x, at) : (int)fmi3SetTime(x, at)); break;
+        case 2: counted(fmi == 2 ? (int)fmi2CompletedIntegratorStep(x, 1, &two, &more)
+                                 : (int)fmi3CompletedIntegratorStep(x, 1, &enter, &end)); break;
+        case 3: {
+            size_t n = below(MOST_VALUES + 1), m = below(MOST_VALUES + 1);
+            for (size_t k = 0; k < MOST_VALUES; k++) {
+                unknown[k] = below(4) ? reference(model.inputs + below(model.outputs)) : any_reference();
+                known[k] = below(4) ? reference(below(model.inputs + 1)) : any_reference();
+                seeds[k] = below(4) ? uniform() : any_number();
+            }
+            if (fmi == 2) counted(fmi2GetDirectionalDerivative(x, unknown, n, known, m, seeds, values));
+            else if (below(2)) counted(fmi3GetDirectionalDerivative(x, unknown, n, known, m, seeds, m, values, n));
+            else counted(fmi3GetAdjointDerivative(x, unknown, n, known, m, seeds, n, values, m));
+            break;
+        }
+        default: numbers((int)below(5));
+    }
+}
+
 static int take(void **state) {
     return counted(fmi == 2 ? (int)fmi2GetFMUstate(x, state) : (int)fmi3GetFMUState(x, state));
 }
@@ -336,7 +399,10 @@ static void put_sum(unsigned char *state) {
 static void live_with(void *state) {
     if (put_back(state) != OK) return;
     if (below(4)) get_all();
-    for (int k = 0; k < 2; k++) step(now(), below(4) ? 1e-3 : 0.05);
+    for (int k = 0; k < 2; k++) {
+        if (with_exchange) numbers(1), numbers(3), events();
+        else step(now(), below(4) ? 1e-3 : 0.05);
+    }
     slopes();
     get_all();
     void *again = NULL;
@@ -432,6 +498,8 @@ static void once(int only_forge) {
         case 14: step(any_number(), any_number()); break;
         case 15: case 16: case 17: case 18: case 19: set_some(); break;
         case 20: case 21: case 22: case 23: case 24: case 25: get(); break;
+        case 27: case 28: exchange(); break;
+        case 29: case 30: case 31: case 32: case 33: case 34: if (with_exchange) { exchange(); break; } /* fall through */
         case 26: step(now(), below(8) ? 0.05 * uniform() : 1e3); break;
         default: step(now(), 2e-3 * uniform());
     }
@@ -448,6 +516,7 @@ int main(int count, char **words) {
     while (strcmp(model.variables[model.inputs + model.outputs + most_steps].name, "max_internal_steps")) most_steps++;
     size = serialized_size();
     bytes = malloc(size);
+    may_exchange = count == 5;
     make();
     for (int k = 5; k < count; k += 2) {
         while (x->head.phase < STEPPING) unmake(), make();

@@ -111,7 +111,7 @@ def test_a_file_that_is_no_fmu_is_wrong_use(command: str, not_an_fmu: Path) -> N
 def test_another_version_of_fmi_is_wrong_use(fmi1_fmu: Path) -> None:
     code, text = invoke("run", fmi1_fmu)
     assert code == 2
-    assert "is not an FMU for co-simulation of FMI 2.0 or 3.0: it has Model Exchange only, of FMI 1.0" in text
+    assert "is not an FMU for Model Exchange of FMI 2.0 or 3.0: it has Model Exchange only, of FMI 1.0" in text
 
 
 @pytest.mark.parametrize("arguments", [["fly"], ["run"], ["run", "a.fmu", "--step", "fast"], ["study", "gearbox"]])

@@ -9,7 +9,7 @@ indicators. Section numbers refer to the FMI specification 3.0.2.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Literal
@@ -116,7 +116,8 @@ def variables3(model: Model, clocks: bool = False) -> tuple[Variable3, ...]:
             "--clocks."
         )
     found = tuple(_variables3(variables, clocks))
-    found += tuple(_of_exchange(model, found[-1].value_reference + 1))
+    taken = {variable.name for variable in found}
+    found += tuple(_of_exchange(model, found[-1].value_reference + 1, taken))
     names = sorted(variable.name for variable in found)
     for name, same in groupby(names):
         if len(list(same)) > 1:
@@ -173,10 +174,10 @@ def _variables3(variables: Sequence[Variable], clocks: bool) -> Iterator[Variabl
         )
 
 
-def _of_exchange(model: Model, first: int) -> Iterator[Variable3]:
+def _of_exchange(model: Model, first: int, taken: Collection[str]) -> Iterator[Variable3]:
     """States, derivatives and event indicators of Model Exchange (section 3)."""
     mechanism = model.mechanism(model.values())
-    states = state_variables(mechanism, first)
+    states = state_variables(mechanism, first, taken)
     behind = first + len(states)
     indicators = [
         Variable(

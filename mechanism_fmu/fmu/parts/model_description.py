@@ -76,7 +76,8 @@ def model_description(model: Model, guid: str, native: bool = False) -> Element:
     root = description_root(model, "2.0", {"guid": guid}, wrapper)
     if native:  # pythonfmu's wrapper has no Model Exchange
         mechanism = model.mechanism(model.values())
-        variables += state_variables(mechanism, FIRST_REFERENCE + len(variables))
+        names = {variable.name for variable in variables}
+        variables += state_variables(mechanism, FIRST_REFERENCE + len(variables), names)
         root.set("numberOfEventIndicators", str(indicator_count(mechanism)))
         _interface(root, "ModelExchange", model, {"needsExecutionTool": "false", **_DERIVATIVES})
     co_simulation = {"canHandleVariableCommunicationStepSize": "true", **(_NATIVE if native else _BY_PYTHONFMU)}

@@ -7,7 +7,7 @@ joints hold is kept by the accelerations, with Baumgarte's stabilisation, and pu
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from ...model import Mechanism
@@ -40,17 +40,19 @@ def states_of(mechanism: Mechanism) -> tuple[State, ...]:
     return tuple(_states(mechanism))
 
 
-def state_variables(mechanism: Mechanism, first: int) -> tuple[Variable, ...]:
+def state_variables(mechanism: Mechanism, first: int, taken: Collection[str]) -> tuple[Variable, ...]:
     """The states and behind them their derivatives, as local variables.
 
     Args:
         mechanism: whose they are.
         first: value reference of the first one.
+        taken: names that others have; a state of such a name is called `state.NAME`.
     """
     states = states_of(mechanism)
+    names = [_free(state.name, taken) for state in states]
     variables = [
         Variable(
-            state.name,
+            name,
             reference,
             "Real",
             "local",
@@ -60,21 +62,21 @@ def state_variables(mechanism: Mechanism, first: int) -> tuple[Variable, ...]:
             state.unit,
             nominal=state.nominal,
         )
-        for reference, state in enumerate(states, first)
+        for reference, (name, state) in enumerate(zip(names, states, strict=True), first)
     ]
     rates = [
         Variable(
-            f"der({state.name})",
+            f"der({name})",
             reference,
             "Real",
             "local",
             "continuous",
             "calculated",
-            f"Derivative of {state.name}",
+            f"Derivative of {name}",
             _PER_SECOND[state.unit],
             derivative=reference - len(states),
         )
-        for reference, state in enumerate(states, first + len(states))
+        for reference, (name, state) in enumerate(zip(names, states, strict=True), first + len(states))
     ]
     return (*variables, *rates)
 
@@ -114,6 +116,12 @@ def _states(mechanism: Mechanism) -> Iterator[State]:
     for contact in mechanism.contacts:
         if contact.wears:
             yield State(f"{_identifier(contact.name)}.sliding_work", f"Work of sliding of {contact.name}", "J", energy)
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    while name in taken or f"der({name})" in taken:
+        name = f"state.{name}"
+    return name
 
 
 def _identifier(name: str) -> str:

@@ -53,7 +53,7 @@ void reset(Instance *x) {
 
 Status require(Instance *x, const char *call, unsigned phases) {
     if (phases & IN(x->head.phase)) return OK;
-    char names[80] = "";
+    char names[160] = ""; /* all of PHASES, and what is between them */
     for (unsigned k = 0; k < sizeof PHASES / sizeof *PHASES; k++) {
         if (!(phases & IN(k))) continue;
         if (*names) strcat(names, " or ");
