@@ -14,7 +14,9 @@ from fmpy.fmi2 import FMU2Model
 from fmpy.validation import validate_fmu
 
 import models
+from mechanism_fmu import codes
 from mechanism_fmu.fmu.native.package import build_native_fmu
+from mechanism_fmu.simulation import Simulation
 
 IMPACT = 0.93992117693158
 #: Outlines take many looks: so far they are followed [s].
@@ -252,3 +254,25 @@ def test_a_step_over_an_impact_is_refused_by_name(native_ratchet_fmu, model):
         one.fmu.completedIntegratorStep()
         one.put(1.3, _rk4(one, 1.29, states, 0.01))
         one.fmu.completedIntegratorStep()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LINKAGES)
+def test_joints_drift_by_less_than_a_micrometre_in_a_minute(name, request):
+    """By Baumgarte's terms alone: nothing happens that would put them right."""
+    path = str(request.getfixturevalue(f"native_{name}_fmu"))
+    variables = read_model_description(path).modelVariables
+    states = [v.name for v in variables if v.causality == "local" and not v.name.startswith("der(")]
+    run = simulate_fmu(
+        path, fmi_type="ModelExchange", relative_tolerance=1e-8, stop_time=60.0, output_interval=0.5, output=states
+    )
+    model = models.load(name).MODEL
+    simulation = Simulation(model.build(model.values()))
+    y, residual = simulation.field("y_end"), simulation.field("residual")
+    joint_rows = sum(joint.rows for joint in simulation._mechanism.joints)
+    worst = 0.0
+    for row in run:
+        y[:] = [row[state] for state in states]
+        simulation._engine.exchange(codes.EXCHANGE_RATES, row["time"])
+        worst = max(worst, np.abs(residual[:joint_rows]).max())
+    assert 0.0 < worst < 1e-6

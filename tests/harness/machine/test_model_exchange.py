@@ -14,6 +14,7 @@ from harness.errors import FmuError, UsageError
 from harness.fmu import open_fmu
 from harness.fmu.instances.common import FmuSlave
 from harness.fmu.instances.integration import Integrator
+from harness.papers.study import indexing
 from mechanism_fmu.fmu.native.package import build_native_fmu
 from tests.harness.machine.foreign import in_c
 from tests.once import once
@@ -42,7 +43,7 @@ def instance() -> Iterator[Callable[..., FmuSlave]]:
         def make(path: Path, integrator: Integrator | None = None, **values: float) -> FmuSlave:
             slave = stack.enter_context(stack.enter_context(open_fmu(path, integrator)).instantiate("one"))
             slave.set(values)
-            slave.initialize(0.0, 10.0)
+            slave.initialize(0.0, 100.0)
             return slave
 
         yield make
@@ -169,3 +170,35 @@ def test_no_states_and_no_indicators_are_no_trouble(foreign, instance):
     stair.step(0.0, 2.5)
     assert stair.get(["count"]) == [2]
     assert np.isfinite(stair.get(["time"])[0])
+
+
+def drive(time: float) -> dict[str, float]:
+    turn = math.tau / indexing.PERIOD
+    return {
+        "drive_angle": indexing.MEAN - indexing.AMPLITUDE * math.cos(turn * time),
+        "drive_speed": indexing.AMPLITUDE * turn * math.sin(turn * time),
+    }
+
+
+@pytest.mark.parametrize(
+    ("restitution", "strokes"), [(0.0, 1), *(pytest.param(e, 4, marks=pytest.mark.slow) for e in (0.0, 0.3))]
+)
+def test_an_indexing_cycle(built, instance, restitution, strokes):
+    """Latches right, as many clicks, the same ledger: four strokes of the free ratchet have some hundred events."""
+    path = built("ratchet", build_native_fmu)
+    values = {**indexing.VALUES, "restitution": restitution}
+    ledger = ["work_done", "energy_lost", "kinetic_energy", "spring_energy"]
+    hold, ends = 0.05, []
+    for integrator in (None, Integrator(relative_tolerance=1e-10)):
+        slave = instance(path, integrator, **values)
+        for k in range(round(strokes * indexing.PERIOD / hold)):
+            slave.set(drive((k + 0.5) * hold))
+            slave.step(k * hold, hold)
+        assert slave.get(["clicks"]) == [strokes]
+        assert slave.get(["latched_angle"])[0] == pytest.approx(math.radians(75 + 18 * strokes), abs=1e-9)
+        ends.append(slave.get(ledger))
+    scale = abs(ends[0][0])
+    assert np.array(ends[1]) == pytest.approx(np.array(ends[0]), abs=1e-6 * scale)
+    start = instance(path, None, **values).get(ledger)
+    work, lost, kinetic, spring = (end - begin for end, begin in zip(ends[1], start, strict=True))
+    assert abs(kinetic + spring + lost - work) <= 1e-6 * scale
