@@ -231,7 +231,8 @@ STOP_BEFORE_EVENT = 4  # ... or at an event that has not happened yet: outputs a
 EXCHANGE_RATES = 0  # the derivative of y_end
 EXCHANGE_INDICATORS = 1
 EXCHANGE_EVENTS = 2  # all that is due happens
-EXCHANGE_COMPLETED = 3  # the importer has accepted a step
+EXCHANGE_MORE_EVENTS = 3  # ... once more in the same event mode, in which records are not emptied
+EXCHANGE_COMPLETED = 4  # the importer has accepted a step
 
 # columns of an event record
 EVENT_TIME = 0

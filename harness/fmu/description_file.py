@@ -62,13 +62,16 @@ def read_description(path: Path, exchange: bool = False) -> Description:
         wanted = "Model Exchange" if exchange else "Co-Simulation or Model Exchange"
         raise UsageError(
             f"'{path}' is not an FMU for {wanted} of FMI 2.0 or 3.0: it has {has} only, of FMI {raw.fmiVersion}. "
-            "The harness runs no other kind; export it again."
+            f"The harness runs no other kind; export it again{_WAY_OUT if exchange else ''}."
         )
     try:
         described = replace(_described(raw, int(version), exchange), terminals=terminals)
         return replace(described, analysis=read_declared(path, described.variables))
     except (ValueError, TypeError, AttributeError, OverflowError) as error:  # a text where a number should be, ...
         raise damaged(path, error) from error
+
+
+_WAY_OUT = ", or leave --integrator out; of this project's FMUs the native flavour has Model Exchange"
 
 
 def damaged(path: Path, error: Exception) -> UsageError:
@@ -162,7 +165,8 @@ def _require_sound(raw: Any, identifier: str) -> None:
 def _dependencies(unknown: Any) -> frozenset[str] | None:
     if unknown.dependencies is None:
         return None
-    return frozenset(name for variable in unknown.dependencies for name in _element_names(variable))
+    inputs = (variable for variable in unknown.dependencies if variable.causality == "input")  # and not states
+    return frozenset(name for variable in inputs for name in _element_names(variable))
 
 
 def _variables(raw: Any, depends_on: frozenset[str] | None) -> Iterator[Variable]:

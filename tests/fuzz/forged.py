@@ -15,7 +15,7 @@ from mechanism_fmu.tables.layout import pack
 from mechanism_fmu.tables.sizes import sizes_of
 
 #: Words of the head of a native state, as in instance_data.h.
-HEAD = ("phase", "set_up", "prepared", "start_time", "stop_time", "tolerance", "clock", "left", "exchange")
+HEAD = ("phase", "set_up", "prepared", "start_time", "stop_time", "tolerance", "clock", "left", "exchange", "updated")
 _CORPUS = tomllib.loads(Path(__file__).with_name("corpus.toml").read_text(encoding="utf-8"))
 
 

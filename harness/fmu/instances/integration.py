@@ -109,6 +109,8 @@ class Integration:
                     raise UsageError(f"At t = {self.time:.9g} s, {_MOST_AT_ONCE} events follow each other without end.")
                 self.begin(self.time, *self._of.happen())
                 self.events += 1
+            elif self._next <= self.time:
+                self._due = (self.time, self.states)
             elif len(self.states) == 0:  # nothing is integrated, and events come by time only
                 self.time = min(self._next, target)
                 if self._of.completed(self.time, self.states) or self.time >= self._next:
@@ -175,6 +177,8 @@ class Integration:
 
         if (value(begin) > 0.0) != before:  # rounding: it is there already
             return float(begin)
+        if (value(end) > 0.0) == before:  # and here not yet
+            return float(end)
         found = float(brentq(value, begin, end, xtol=_CLOSE, rtol=_ROUNDINGS * np.finfo(float).eps))
         beyond = _ROUNDINGS * math.ulp(max(abs(found), 1e-3))
         while found < end and (value(found) > 0.0) == before:

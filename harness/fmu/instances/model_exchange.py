@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 from collections.abc import Mapping
 from ctypes import POINTER, c_double, cast
 from dataclasses import replace
@@ -20,6 +21,9 @@ from .fmi3 import MOST_UPDATES, Fmi3Slave
 from .integration import Integration, Integrator, Numbers
 from .loading import FMU2ModelLoaded, FMU3ModelLoaded
 from .message_log import MessageHandler
+
+#: Of a snapshot as bytes: whether it is in event mode, whether buffers are empty, when the next event by time is [s].
+_MODE = struct.Struct("<??d")
 
 
 class _ModelExchange(FmuSlave):
@@ -73,6 +77,16 @@ class _ModelExchange(FmuSlave):
         self._in_events, self._emptied, announced = state.event_mode
         self._next = math.inf if announced is None else announced
         self._stale = True
+
+    def serialize(self, state: SavedState) -> bytes:
+        """A snapshot as bytes, behind the mode in which it was taken."""
+        inside, emptied, announced = state.event_mode
+        return _MODE.pack(inside, emptied, math.inf if announced is None else announced) + super().serialize(state)
+
+    def deserialize(self, data: bytes) -> SavedState:
+        """A snapshot from bytes."""
+        inside, emptied, announced = _MODE.unpack_from(data)
+        return replace(super().deserialize(data[_MODE.size :]), event_mode=(inside, emptied, announced))
 
     # what `Integration` asks for
 

@@ -12,14 +12,15 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Exchange, Pose
+from ...tables.motion import Course, Exchange, Pose, Rubs
 from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ...tolerances import GAP_NOISE, RESTS_BELOW, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import entry, jit, keep_apart, keep_small
+from ..constraints.friction_rows import touches
 from ..constraints.kinematics import place_bodies
-from ..contacts.binding import bind, deepest_overlap, is_free, is_outline
+from ..contacts.binding import bind, deepest_overlap, is_free, is_outline, let_loose, take_found
 from ..contacts.guards import gap, guard_of
 from ..contacts.impact import clear_records
 from ..contacts.inside import blame
@@ -27,7 +28,7 @@ from ..contacts.transition import release, transit
 from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_positions, mend
 from ..dynamics.forces import inputs_changed, take_inputs
 from ..dynamics.oscillation import observe
-from ..outlines.nearest import look_no_deeper
+from ..outlines.nearest import MEETS, look_no_deeper, nearest
 from ..stepping.step import watch_at
 from ..stepping.step_size import left_to_piece, smallest_step
 from ..stepping.stepper import restart
@@ -37,9 +38,11 @@ from .indicators import (
     can_happen,
     due_below,
     evaluate,
+    forget_apart,
     happens,
     indicator,
     is_leaving,
+    length_scale,
     lift,
     measure,
     unseen,
@@ -47,6 +50,8 @@ from .indicators import (
     write_indicators,
 )
 
+#: An importer without a root finder may come no deeper than this part of the mechanism's size, or so many rad.
+_DEEPEST_SHARE = 5e-3
 #: So many things in turn at one instant are no motion any more.
 _MOST_HAPPENINGS = 100
 #: A dip of the cubic through gaps and rates at two steps counts that is deeper than this part of the gaps there: it is
@@ -60,7 +65,8 @@ def exchange(block: Array, what: int, time: float) -> int:
 
     Rates: dy_end. Indicators: `exchange.indicator`. Events: y_end and all modes are those after what is due, and
     `next_piece` says when the next event by time is; where nothing was due, the records of earlier events are emptied.
-    Completed: the step from the last one on is looked through for what the importer has not seen.
+    Completed: the step from the last one on is looked through for what the importer has not seen, and `wants_events`
+    says whether event mode is to follow.
     """
     keep_small()
     _set_clock(block, time)
@@ -72,7 +78,7 @@ def exchange(block: Array, what: int, time: float) -> int:
         return status.OK
     if what == codes.EXCHANGE_COMPLETED:
         return _complete(block)
-    outcome = _happen(block)
+    outcome = _happen(block, what == codes.EXCHANGE_EVENTS)
     if outcome == status.OK:
         _settle(block)
     return outcome
@@ -89,33 +95,46 @@ def _set_clock(block: Array, time: float) -> None:
 
 
 @jit
-def _happen(block: Array) -> int:
-    """Changed inputs, and then all that is due; return a status."""
+def _happen(block: Array, first: bool) -> int:
+    """All that is due, changed inputs, and what is due then; return a status.
+
+    For the `first` time in this event mode or not. Inputs come second: a slip that has just come to zero would else
+    have a direction, that of its last digits.
+    """
     keep_small()
     clear(Contacts(block).apart)
     copy(Course(block).y_end, Exchange(block).seen_y)  # outlines are looked at from here on
-    some = inputs_changed(block)
-    if some:
+    outcome, some = _happen_in_turn(block)
+    if outcome == status.OK and inputs_changed(block):
         take_inputs(block)
         outcome = transit(block, codes.GUARD_INPUT, codes.NONE)
-        if outcome != status.OK:
-            return outcome
+        some = True
+        if outcome == status.OK:
+            outcome, _ = _happen_in_turn(block)
+    if outcome == status.OK and first and not some:
+        clear_records(block)
+    return outcome
+
+
+@jit
+def _happen_in_turn(block: Array) -> tuple[int, bool]:
+    """All that is due, one after the other: a status, and whether there was anything."""
+    keep_small()
+    some = False
     for _ in range(_MOST_HAPPENINGS):
         at = evaluate(block)
         number = _first_due(block, at)
         if number == codes.NONE:
-            if not some:
-                clear_records(block)
-            return status.OK
+            return status.OK, some
         some = True
         guard, subject = happens(block, number)
         gap_closes = guard == codes.GUARD_GAP
         outcome = _touch(block, at, number, subject) if gap_closes else transit(block, guard, subject)
         if outcome != status.OK:
-            return outcome
-        if guard == codes.GUARD_HANDOVER:
+            return outcome, some
+        if guard != codes.GUARD_GAP and guard != codes.GUARD_PUSH:  # these have changed what is looked at
             lift(block, evaluate(block), number, 2.0 * DUE)
-    return status.CHATTERING
+    return status.CHATTERING, some
 
 
 @jit
@@ -152,11 +171,20 @@ def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
     release(block, contact)
     if is_free(block, contact):
         look_no_deeper(block, 2.0 * unseen(block, contact))  # as far as an importer without a root finder has come
-        bind(block, place_bodies(block, Course(block).y_end), contact)
+        rate = _rate_of_nearest(block, contact)
+        if rate < RESTS_BELOW:
+            bind(block, place_bodies(block, Course(block).y_end), contact)
         look_no_deeper(block, 0.0)
-        if is_free(block, contact):
+        if math.isnan(rate):
             blame(block, contact, 0.0)
             return status.PASSED_OVER
+        if is_free(block, contact):  # beside what has just come off, other features come off with it
+            lift(block, evaluate(block), number, 2.0 * DUE)
+            return status.OK
+    distance = gap(block, place_bodies(block, Course(block).y_end), contact)[0]
+    if distance < -_DEEPEST_SHARE * length_scale(block, number):
+        blame(block, contact, distance)
+        return status.PASSED_OVER
     _bring_together(block, contact)
     at = place_bodies(block, Course(block).y_end)
     rate = gap(block, at, contact)[1]
@@ -167,6 +195,20 @@ def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
     outcome = transit(block, codes.GUARD_GAP, contact)
     Exchange(block).lift[number] = 0.0
     return outcome
+
+
+@jit
+def _rate_of_nearest(block: Array, contact: int) -> float:
+    """The gap rate of what two outlines touch with next [m/s]; not a number where nothing is that near."""
+    keep_small()
+    at = place_bodies(block, Course(block).y_end)
+    nearest(block, at, contact, MEETS)
+    take_found(block, contact)
+    rate = math.nan
+    if not is_free(block, contact):
+        rate = gap(block, at, contact)[1]
+    let_loose(block, contact)
+    return rate
 
 
 @jit
@@ -233,6 +275,9 @@ def _complete(block: Array) -> int:
     now = Course(block)
     table = Exchange(block)
     at = evaluate(block)
+    outcome = what_forbids(block)
+    if outcome != status.OK:
+        return outcome
     size = now.clock[codes.TIME] - now.clock[codes.COMPLETED]
     for c in range(table.leaves.shape[0]):
         if size > 0.0 and _is_looked_at(block, c):
@@ -242,7 +287,7 @@ def _complete(block: Array) -> int:
                 blame(block, c, -depth)
                 return status.PASSED_OVER
     if Sizes(block).outlines > 0:
-        clear(Contacts(block).apart)
+        forget_apart(block, at)
         contact, overlap = deepest_overlap(block, at)
         if contact != codes.NONE and overlap > 2.0 * unseen(block, contact):
             blame(block, contact, -overlap)
@@ -253,7 +298,18 @@ def _complete(block: Array) -> int:
         _set_clock(block, now.clock[codes.TIME])
     watch_at(block, now.clock[codes.TIME])
     _note(block, at)
+    table.wants_events[0] = 1 if _begins_to_rub(block) else 0
     return status.OK
+
+
+@jit
+def _begins_to_rub(block: Array) -> bool:
+    """Whether friction that was none has become some, as of a brake that an input applies between events."""
+    keep_small()
+    begins = False
+    for k in range(Sizes(block).rubs):
+        begins = begins or (Rubs(block).slip[k] == codes.APART and touches(block, k))
+    return begins
 
 
 @jit

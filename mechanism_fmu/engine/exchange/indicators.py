@@ -11,10 +11,10 @@
   than what touches has ended there: the contact closes.
 - Two outlines: an importer's step must not lead through a corner, and there is no rate that would tell of a dip. What
   is known is their distance s at the last completed step, and by how much it can have changed since: the circle around
-  one outline has been displaced by `travel` in the frame of the other one's body. So the indicator is s - travel, which
-  takes no search at all; at its zero, which is no more than a look, s is measured anew. Where s is less than what a
-  corner may be grazed by unseen, `_GRAZE` of the radius, it is the distance itself, or 2 _GRAZE R - travel if that is
-  less.
+  one outline has been displaced by `travel` at most in the frame of the other one's body. So the indicator is
+  s - travel, which takes no search at all; at its zero, which is no more than a look, s is measured anew. Where s is
+  less than what a corner may be grazed by unseen, `_GRAZE` of the radius, it is the distance itself, or
+  2 _GRAZE R - travel if that is less.
 - All bodies, where anything depends on their places: 1 - turn / MOST_TURN since the last completed step, so that no
   step turns over what happens twice within it.
 - A stop with memory, the end of a feature, a pattern's boundaries, a logical function: how far each is from its change.
@@ -52,6 +52,8 @@ from ..stepping.step_size import MOST_TURN
 #: By how much a leaving contact's indicator rises with its gap: so fast must it come back from a gap for that to be
 #: seen before the gap is zero [s].
 RETURN_TIME = 0.1
+#: Poses between which a step runs: its start, two control points, and now.
+_SEEN, _LEAVES, _ARRIVES, _NOW = range(4)
 #: Outlines may graze each other unseen by half of this part of the smaller one's radius.
 _GRAZE = 1e-3
 #: An indicator below this is due, and behind events none is below twice as much.
@@ -138,13 +140,13 @@ def indicator(block: Array, at: Pose, number: int) -> float:
         return (hold(block, subject) + LETS_GO * tolerance) / _force_scale(block)
     if is_leaving(block, number):
         distance, rate = gap(block, at, subject)
-        return (rate + STICK_SPEED + distance / RETURN_TIME) / _length_scale(block, number)
+        return (rate + STICK_SPEED + distance / RETURN_TIME) / length_scale(block, number)
     if guard == codes.GUARD_GAP and is_free(block, subject):
-        return _before_meeting(block, at, number, subject) / _length_scale(block, number)
+        return _before_meeting(block, at, number, subject) / length_scale(block, number)
     value = guard_value(block, at, number)[0]
     if guard == codes.GUARD_STICK:
-        value += SLIPS_ABOVE
-    return value / _length_scale(block, number)
+        value += 0.5 * SLIPS_ABOVE  # at zero it is at rest for every event
+    return value / length_scale(block, number)
 
 
 @jit
@@ -156,9 +158,9 @@ def _before_meeting(block: Array, at: Pose, number: int, contact: int) -> float:
     one, other = table.outline_i[contact], table.outline_j[contact]
     graze = unseen(block, contact)
     i, j = table.body_i[contact], table.body_j[contact]
-    travel = _travel(block, at, i, j, one)
+    travel = _travel(block, i, j, one)
     if Outlines(block).copies[other] == 0:
-        travel = min(travel, _travel(block, at, j, i, other))
+        travel = min(travel, _travel(block, j, i, other))
     if known >= graze:
         return float(known - travel)
     look_no_deeper(block, 2.0 * graze)  # what has come in since is to be seen, that far at least
@@ -178,21 +180,27 @@ def unseen(block: Array, contact: int) -> float:
 
 
 @jit
-def _travel(block: Array, at: Pose, i: int, j: int, outline: int) -> float:
-    """How far points of the circle around an outline of body i have gone in the frame of body j at most [m].
+def _travel(block: Array, i: int, j: int, outline: int) -> float:
+    """A bound of how far points of the circle around an outline of body i have gone in the frame of body j [m].
 
-    Since the last completed step.
+    Since the last completed step, at any instant since then: that of the poses between which the cubic through places
+    and velocities at both ends runs (the control points of its Bezier form).
     """
     keep_small()
     data = Outlines(block).data[outline]
     x, y = data[codes.OUTLINE_X], data[codes.OUTLINE_Y]
-    now_x, now_y = _from(at.x[j], at.y[j], at.phi[j], at.x[i], at.y[i], at.phi[i], x, y)
-    xi, yi, phi_i = _seen(block, i)
-    xj, yj, phi_j = _seen(block, j)
+    radius: float = data[codes.OUTLINE_RADIUS]
+    xi, yi, phi_i = _pose(block, i, _SEEN)
+    xj, yj, phi_j = _pose(block, j, _SEEN)
     seen_x, seen_y = _from(xj, yj, phi_j, xi, yi, phi_i, x, y)
-    turned = abs(at.phi[i] - phi_i - at.phi[j] + phi_j)
-    displaced = math.sqrt((now_x - seen_x) ** 2 + (now_y - seen_y) ** 2)
-    return float(displaced + data[codes.OUTLINE_RADIUS] * turned)
+    most = 0.0
+    for which in range(_LEAVES, _NOW + 1):
+        now_xi, now_yi, now_i = _pose(block, i, which)
+        now_xj, now_yj, now_j = _pose(block, j, which)
+        now_x, now_y = _from(now_xj, now_yj, now_j, now_xi, now_yi, now_i, x, y)
+        turned = abs(now_i - phi_i - now_j + phi_j)
+        most = max(most, math.sqrt((now_x - seen_x) ** 2 + (now_y - seen_y) ** 2) + radius * turned)
+    return most
 
 
 @jit
@@ -209,25 +217,46 @@ def _from(
 
 
 @jit
-def _seen(block: Array, body: int) -> tuple[float, float, float]:
-    """Place and angle of a body at the last completed step."""
+def _pose(block: Array, body: int, which: int) -> tuple[float, float, float]:
+    """Place and angle of a body at the last completed step, now, or at a control point of the cubic in between."""
     keep_small()
     if body == Sizes(block).bodies:
         return 0.0, 0.0, 0.0
-    y = Exchange(block).seen_y
-    return float(y[3 * body]), float(y[3 * body + 1]), float(y[3 * body + 2])
+    return (
+        _coordinate(block, 3 * body, which),
+        _coordinate(block, 3 * body + 1, which),
+        _coordinate(block, 3 * body + 2, which),
+    )
 
 
 @jit
-def _before_turned(block: Array, at: Pose) -> float:
+def _coordinate(block: Array, k: int, which: int) -> float:
+    clock = Course(block).clock
+    third = (clock[codes.TIME] - clock[codes.COMPLETED]) / 3.0
+    n = Sizes(block).coordinates
+    seen = Exchange(block).seen_y
+    now = Course(block).y_end
+    value: float = seen[k]
+    if which == _LEAVES:
+        value += third * seen[n + k]
+    elif which == _ARRIVES:
+        value = now[k] - third * now[n + k]
+    elif which == _NOW:
+        value = now[k]
+    return value
+
+
+@jit
+def _before_turned(block: Array) -> float:
     """How much further the body that has turned most may turn, in parts of what it may."""
     keep_small()
     if Sizes(block).guards == Sizes(block).rubs:
         return 1.0
     most = 0.0
-    for i in range(Sizes(block).bodies):
-        most = max(most, abs(at.phi[i] - _seen(block, i)[2]))
-    return float(1.0 - most / MOST_TURN)
+    for k in range(2, Sizes(block).coordinates, 3):
+        for which in range(_LEAVES, _NOW + 1):
+            most = max(most, abs(_coordinate(block, k, which) - _coordinate(block, k, _SEEN)))
+    return 1.0 - most / MOST_TURN
 
 
 @jit
@@ -238,7 +267,7 @@ def write_indicators(block: Array) -> None:
     table = Exchange(block)
     for g in range(Sizes(block).guards):
         table.indicator[g] = indicator(block, at, g) + table.lift[g]
-    table.indicator[Sizes(block).guards] = _before_turned(block, at)
+    table.indicator[Sizes(block).guards] = _before_turned(block)
 
 
 @jit
@@ -250,6 +279,18 @@ def measure(block: Array, at: Pose) -> None:
         if is_free(block, g) and can_happen(block, g):
             table.apart[table.group[g]] = 0.0
             table.apart[table.group[g]] = max(guard_value(block, at, g)[0], 0.0)
+
+
+@jit
+def forget_apart(block: Array, at: Pose) -> None:
+    """Of outlines that may have come near each other since they were measured, it is not known that they are apart."""
+    keep_small()
+    table = Contacts(block)
+    for g in range(table.mode.shape[0]):
+        if is_free(block, g) and can_happen(block, g):
+            near = table.apart[table.group[g]] < unseen(block, g) or indicator(block, at, g) <= 0.0
+            if near:
+                table.apart[table.group[g]] = 0.0
 
 
 @jit
@@ -276,11 +317,11 @@ def lift(block: Array, at: Pose, number: int, least: float) -> None:
     if value < least:
         table.lift[number] = least - value
         if guard_of(block, number)[0] == codes.GUARD_HANDOVER:
-            table.lift[number] += MARGIN / _length_scale(block, number)
+            table.lift[number] += MARGIN / length_scale(block, number)
 
 
 @jit
-def _length_scale(block: Array, number: int) -> float:
+def length_scale(block: Array, number: int) -> float:
     """The size of the mechanism [m], of its speeds [m/s]; 1 for angles, and where all bodies begin at the origin."""
     keep_small()
     guard, subject = guard_of(block, number)

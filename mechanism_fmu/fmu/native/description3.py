@@ -16,7 +16,7 @@ from typing import Literal
 from xml.etree.ElementTree import Element, SubElement
 
 from ...model import MechanismError, Model
-from ..parts.model_description import CommonType, definitions, description_root, value_attributes
+from ..parts.model_description import CommonType, definitions, description_root, value_attributes, with_states
 from ..parts.states import indicator_count, state_variables
 from ..parts.variables import FIRST_REFERENCE, Variable, array_name, common_description, numbered, stride, variables_of
 
@@ -245,6 +245,8 @@ def _variable(elements: Element, variable: Variable3, types: dict[str, CommonTyp
     element.attrib.update(value_attributes(scalar, types))
     if scalar.derivative is not None:
         element.set("derivative", str(scalar.derivative))
+    if scalar.state:
+        element.set("reinit", "true")
     if variable.clock is not None:
         element.set("clocks", str(variable.clock))
     if scalar.causality == "output" and scalar.variability == "continuous":
@@ -263,7 +265,7 @@ def _model_structure(root: Element, variables: Sequence[Variable3]) -> None:
     structure = SubElement(root, "ModelStructure")
     for variable in variables:
         if variable.scalar.causality == "output":
-            _unknown(structure, "Output", variable, variable.scalar.dependencies)
+            _unknown(structure, "Output", variable, with_states(variable.scalar, [one.scalar for one in variables]))
     for variable in variables:
         if variable.scalar.derivative is not None:
             _unknown(structure, "ContinuousStateDerivative", variable, None)

@@ -238,6 +238,8 @@ def _scalar_variable(elements: Element, variable: Variable, types: dict[str, Com
     attributes = value_attributes(variable, types)
     if variable.derivative is not None:
         attributes["derivative"] = str(_index(variable.derivative))
+    if variable.state:
+        attributes["reinit"] = "true"
     SubElement(element, variable.type, attributes)
 
 
@@ -258,6 +260,12 @@ def value_attributes(variable: Variable, types: dict[str, CommonType]) -> dict[s
     return attributes
 
 
+def with_states(output: Variable, variables: Iterable[Variable]) -> tuple[int, ...]:
+    """What an output depends on: its inputs, and in Model Exchange all states where it varies continuously."""
+    states = (v.value_reference for v in variables if v.state)
+    return (*output.dependencies, *states) if output.variability == "continuous" else output.dependencies
+
+
 def _model_structure(root: Element, variables: Sequence[Variable]) -> None:
     """Outputs and initial unknowns with their dependencies (section 2.2.8); indices count from 1."""
     structure = SubElement(root, "ModelStructure")
@@ -265,7 +273,7 @@ def _model_structure(root: Element, variables: Sequence[Variable]) -> None:
     if outputs:
         element = SubElement(structure, "Outputs")
         for variable in outputs:
-            _unknown(element, variable, variable.dependencies)
+            _unknown(element, variable, with_states(variable, variables))
     rates = [v for v in variables if v.derivative is not None]
     if rates:
         element = SubElement(structure, "Derivatives")

@@ -46,10 +46,12 @@ def state_variables(mechanism: Mechanism, first: int, taken: Collection[str]) ->
     Args:
         mechanism: whose they are.
         first: value reference of the first one.
-        taken: names that others have; a state of such a name is called `state.NAME`.
+        taken: names that others have; a state of such a name, or of one of an earlier state, is called `state.NAME`.
     """
     states = states_of(mechanism)
-    names = [_free(state.name, taken) for state in states]
+    names: list[str] = []
+    for state in states:
+        names.append(_free(state.name, {*taken, *names}))
     variables = [
         Variable(
             name,
@@ -61,6 +63,7 @@ def state_variables(mechanism: Mechanism, first: int, taken: Collection[str]) ->
             state.description,
             state.unit,
             nominal=state.nominal,
+            state=True,
         )
         for reference, (name, state) in enumerate(zip(names, states, strict=True), first)
     ]
@@ -125,4 +128,5 @@ def _free(name: str, taken: Collection[str]) -> str:
 
 
 def _identifier(name: str) -> str:
-    return re.sub(r"\W", "_", name)
+    found = re.sub(r"\W", "_", name)
+    return f"_{found}" if found[:1].isdigit() else found

@@ -41,6 +41,7 @@ class Variable:
             in initialization mode.
         source: what an output reads (see `mechanism_fmu.model.Output`); "" of all others.
         derivative: value reference of the state whose derivative it is, or None.
+        state: whether it is a continuous state, which events may change.
     """
 
     name: str
@@ -60,6 +61,7 @@ class Variable:
     initial_dependencies: tuple[int, ...] = ()
     source: str = ""
     derivative: int | None = None
+    state: bool = False
 
 
 def variables_of(model: Model) -> tuple[Variable, ...]:

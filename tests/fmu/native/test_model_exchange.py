@@ -1,6 +1,7 @@
 """Model Exchange of native FMUs, driven by FMPy's integrators and by hand."""
 
 import ctypes
+import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -80,7 +81,13 @@ def test_euler_gets_through_a_linkage(name, request):
     errors = []
     for step in (1e-3, 1e-4):
         found = simulate_fmu(
-            path, fmi_type="ModelExchange", solver="Euler", stop_time=0.2, output_interval=step, output=[angle]
+            path,
+            fmi_type="ModelExchange",
+            solver="Euler",
+            stop_time=0.2,
+            step_size=step,
+            output_interval=step,
+            output=[angle],
         )
         errors.append(abs(found[angle][-1] - exact))
     assert 8.0 < errors[0] / errors[1] < 12.0
@@ -220,6 +227,7 @@ def test_a_saved_state_goes_on_alike(native_ratchet_fmu, model):
 def test_calls_that_are_refused(native_ratchet_fmu, model):
     error, discard = 3, 2
     one = model(native_ratchet_fmu)
+    assert (one.numbers("getNominalsOfContinuousStates", one.states) > 0.0).all()  # as soon as there is an instance
     with refused(error):
         one.fmu.newDiscreteStates()
     states = one.begin()
@@ -276,3 +284,72 @@ def test_joints_drift_by_less_than_a_micrometre_in_a_minute(name, request):
         simulation._engine.exchange(codes.EXCHANGE_RATES, row["time"])
         worst = max(worst, np.abs(residual[:joint_rows]).max())
     assert 0.0 < worst < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("changed", "torque"),
+    [
+        ({"slider_friction": 0.3}, 0.3),
+        pytest.param({"joint_friction_radius": 0.003}, 0.3, marks=pytest.mark.slow),
+        pytest.param({"joint_friction_radius": 0.003}, -0.1, marks=pytest.mark.slow),
+    ],
+)
+def test_friction_that_reverses(native_slider_crank_fmu, changed, torque):
+    """Slip that stops and goes on the other way, again and again."""
+    names = ["crank_angle", "crank_speed", "energy_lost"]
+    options = {
+        "start_values": changed | {"drive_torque": torque},
+        "output": names,
+        "stop_time": 2.0,
+        "output_interval": 0.05,
+    }
+    path = str(native_slider_crank_fmu)
+    stepped = simulate_fmu(path, fmi_type="CoSimulation", **options)
+    integrated = simulate_fmu(path, fmi_type="ModelExchange", relative_tolerance=1e-9, **options)
+    for name in names:
+        size = max(1.0, float(np.abs(stepped[name]).max()))
+        assert integrated[name][-1] == pytest.approx(stepped[name][-1], abs=1e-5 * size), name
+
+
+def test_a_brake_that_an_input_applies_between_events_brakes(native_rotary_table_fmu):
+    """From none on: the FMU asks for event mode, in which what rubs is chosen."""
+    times = np.linspace(0.0, 2.0, 201)
+    ramp = np.zeros(len(times), dtype=[("time", float), ("drive_speed", float), ("brake_torque", float)])
+    ramp["time"], ramp["drive_speed"], ramp["brake_torque"] = times, 1.0, np.maximum(0.0, times - 0.5)
+    names = ["table_speed", "energy_lost"]
+    options = {"input": ramp, "output": names, "stop_time": 2.0, "output_interval": 0.01}
+    path = str(native_rotary_table_fmu)
+    stepped = simulate_fmu(path, fmi_type="CoSimulation", **options)
+    integrated = simulate_fmu(path, fmi_type="ModelExchange", relative_tolerance=1e-8, **options)
+    assert stepped["energy_lost"][-1] > 1e-3
+    assert integrated["energy_lost"][-1] == pytest.approx(stepped["energy_lost"][-1], rel=0.05)  # held inputs are late
+
+
+@pytest.mark.parametrize("step", [1e-4, 1e-3, 1e-2, 0.1, 0.2, 0.5])
+@pytest.mark.parametrize("restitution", [0.0, 0.3])
+def test_fixed_steps_come_near_the_truth_or_are_refused(native_ratchet_fmu, restitution, step):
+    path = str(native_ratchet_fmu)
+    options = {"start_values": {"restitution": restitution}, "output": ["energy_lost"], "stop_time": 2.0}
+    true = simulate_fmu(path, fmi_type="CoSimulation", output_interval=0.1, **options)["energy_lost"][-1]
+    try:
+        found = simulate_fmu(
+            path, fmi_type="ModelExchange", solver="Euler", step_size=step, output_interval=step, **options
+        )
+    except FMICallException:
+        assert step >= 0.1
+        return
+    assert step <= 0.1
+    assert found["energy_lost"][-1] == pytest.approx(true, rel=min(0.5, 20 * step))
+
+
+def test_what_events_may_change_says_so_and_outputs_depend_on_states(native_ratchet_fmu, built):
+    for path in (native_ratchet_fmu, built("ratchet", build_native_fmu, fmi=3)):
+        description = read_model_description(str(path))
+        local = [v for v in description.modelVariables if v.causality == "local" and not v.name.startswith("event")]
+        states, rates = local[: len(local) // 2], local[len(local) // 2 :]
+        with zipfile.ZipFile(path) as archive:
+            assert archive.read("modelDescription.xml").count(b'reinit="true"') == len(states)
+        assert [v.derivative for v in rates] == states
+        for output in description.outputs:
+            wanted = set(states) if output.variable.variability == "continuous" else set()
+            assert {v for v in output.dependencies if v.causality == "local"} == wanted

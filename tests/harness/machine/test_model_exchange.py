@@ -104,6 +104,19 @@ def test_a_snapshot_of_a_ball_in_flight(foreign, instance):
     assert after[0] == pytest.approx(after[1], rel=1e-8)
 
 
+@pytest.mark.parametrize("when", [0, 50])
+def test_a_snapshot_as_bytes_goes_on_in_another_instance(built, instance, when):
+    path = built("ratchet", build_native_fmu)
+    one, other = (instance(path, Integrator()) for _ in range(2))
+    steps(one, when, 0.01)
+    data = one.serialize(one.save())
+    other.restore(other.deserialize(data))
+    for slave in (one, other):
+        for k in range(when, 120):
+            slave.step(k * 0.01, 0.01)
+    assert other.get(["wheel_angle", "impact_time"]) == pytest.approx(one.get(["wheel_angle", "impact_time"]), rel=1e-9)
+
+
 @pytest.mark.parametrize("restitution", [0.0, 0.3])
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_the_ratchet_goes_the_way_of_co_simulation(built, instance, restitution, fmi):

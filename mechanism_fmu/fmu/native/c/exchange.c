@@ -25,18 +25,24 @@ static Status fail(Instance *x, const char *call, int64_t outcome, Status status
     return refuse(x, "t = %.9g s: %s%s", time_of(x), ADVICE[outcome], details);
 }
 
-/* In the phases given, and as many values as there are; `least` says which calls are allowed in initialization, too. */
-static Status check(Instance *x, const char *call, unsigned phases, const void *values, size_t count, size_t expected) {
+/* In the phases given, and as many values as there are. */
+static Status check_numbers(Instance *x, const char *call, unsigned phases, const void *values, size_t count,
+                            size_t expected) {
     if (!x->exchange) return refuse(x, "%s: the instance was made for co-simulation.", call);
     if (require(x, call, phases) != OK) return ERROR;
     if (count != expected) return refuse(x, "%s: %zu values were asked for, and there are %zu.", call, count, expected);
     if (count > 0 && !values) return refuse(x, "%s: the pointer to the values is null.", call);
-    return prepare(x);
+    return OK;
+}
+
+static Status check(Instance *x, const char *call, unsigned phases, const void *values, size_t count, size_t expected) {
+    return check_numbers(x, call, phases, values, count, expected) == OK ? prepare(x) : ERROR;
 }
 
 Status enter_events(Instance *x, const char *call) {
     if (check(x, call, IN(CONTINUOUS), NULL, 0, 0) != OK) return ERROR;
     x->head.phase = EVENT;
+    x->head.updated = 0;
     return OK;
 }
 
@@ -44,7 +50,8 @@ Status update_events(Instance *x, const char *call, EventNews *news) {
     if (check(x, call, IN(EVENT), NULL, 0, 0) != OK) return ERROR;
     size_t size = state_count(x) * sizeof(double);
     memcpy(x->states_before, FIELD(x, y_end), size);
-    int64_t outcome = ask(x, CODE_EXCHANGE_EVENTS);
+    int64_t outcome = ask(x, x->head.updated ? CODE_EXCHANGE_MORE_EVENTS : CODE_EXCHANGE_EVENTS);
+    x->head.updated = 1;
     log_news(x);
     if (outcome != STATUS_OK) return fail(x, call, outcome, ERROR);
     news->states_changed = memcmp(x->states_before, FIELD(x, y_end), size) != 0;
@@ -58,11 +65,13 @@ Status enter_continuous(Instance *x, const char *call) {
     return OK;
 }
 
-Status complete_step(Instance *x, const char *call) {
+Status complete_step(Instance *x, const char *call, int *wants_events) {
     if (check(x, call, IN(CONTINUOUS), NULL, 0, 0) != OK) return ERROR;
     int64_t outcome = ask(x, CODE_EXCHANGE_COMPLETED);
     log_news(x);
-    return outcome == STATUS_OK ? OK : fail(x, call, outcome, ERROR);
+    if (outcome != STATUS_OK) return fail(x, call, outcome, ERROR);
+    *wants_events = ((const int64_t *)FIELD(x, exchange_wants_events))[0] != 0;
+    return OK;
 }
 
 Status set_instant(Instance *x, const char *call, double time) {
@@ -103,7 +112,8 @@ Status get_derivatives(Instance *x, const char *call, double derivatives[], size
 }
 
 Status get_nominals(Instance *x, const char *call, double nominals[], size_t count) {
-    if (check(x, call, RUNNING | IN(TERMINATED), nominals, count, state_count(x)) != OK) return ERROR;
+    unsigned phases = IN(INSTANTIATED) | IN(INITIALIZATION) | RUNNING | IN(TERMINATED);
+    if (check_numbers(x, call, phases, nominals, count, state_count(x)) != OK) return ERROR;
     memcpy(nominals, model.nominals, count * sizeof(double));
     return OK;
 }
@@ -148,10 +158,11 @@ double exchanged(Instance *x, unsigned vr) {
 
 /* --- directional derivatives --- */
 
-/* Where the derivative of an unknown stands: of an output that varies continuously, or of a state's derivative. */
+/* Where the derivative of an unknown stands: of an output that varies continuously, or of a state's derivative, which in
+   co-simulation, where the engine may be ahead, is none. */
 static Status unknown_place(Instance *x, const char *call, unsigned vr, size_t *place) {
     size_t k = vr - first_exchanged(x), n = state_count(x);
-    if (is_exchanged(x, vr) && k >= n && k < 2 * n) {
+    if (x->exchange && is_exchanged(x, vr) && k >= n && k < 2 * n) {
         *place = SIZE(x, outputs) + (k - n); /* behind calculated parameters */
         return OK;
     }
@@ -160,8 +171,8 @@ static Status unknown_place(Instance *x, const char *call, unsigned vr, size_t *
         *place = output;
         return OK;
     }
-    return refuse(x, "%s: the variable with value reference %u is no continuous output and no derivative of a state.", call,
-                  vr);
+    return refuse(x, "%s: the variable with value reference %u is no continuous output%s.", call, vr,
+                  x->exchange ? " and no derivative of a state" : "; derivatives of states are for Model Exchange");
 }
 
 /* Where the seed of a known stands: of an input, or in Model Exchange of a state. */

@@ -13,7 +13,7 @@ typedef struct {
 Status enter_events(Instance *x, const char *call);
 Status update_events(Instance *x, const char *call, EventNews *news);
 Status enter_continuous(Instance *x, const char *call);
-Status complete_step(Instance *x, const char *call);
+Status complete_step(Instance *x, const char *call, int *wants_events);
 Status set_instant(Instance *x, const char *call, double time);
 Status set_states(Instance *x, const char *call, const double states[], size_t count);
 /* States, their derivatives or nominals, and event indicators; where nothing finite comes of states, DISCARD. */

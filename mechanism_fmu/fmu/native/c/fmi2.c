@@ -220,9 +220,11 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_way_back,
                                        fmi2Boolean *terminate) {
     SELF(c);
     (void)no_way_back;
-    if (enter_event_mode) *enter_event_mode = fmi2False;
+    int wants_events = 0;
+    Status status = complete_step(x, "fmi2CompletedIntegratorStep", &wants_events);
+    if (enter_event_mode) *enter_event_mode = wants_events;
     if (terminate) *terminate = fmi2False;
-    return (fmi2Status)complete_step(x, "fmi2CompletedIntegratorStep");
+    return (fmi2Status)status;
 }
 
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {

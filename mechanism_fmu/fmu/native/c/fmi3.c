@@ -1,4 +1,4 @@
-/* FMI 3.0 (specification 3.0.1, chapters 2 to 4): the surface of an instance. */
+/* FMI 3.0 (specification 3.0.2, chapters 2 to 4): the surface of an instance. */
 #include <math.h>
 #include <string.h>
 
@@ -173,8 +173,6 @@ fmi3Status fmi3ExitInitializationMode(fmi3Instance c) {
     return fmi3OK;
 }
 
-static void forget_left(Instance *x);
-
 fmi3Status fmi3Terminate(fmi3Instance c) {
     SELF(c);
     if (require(x, "fmi3Terminate", IN(STEPPING) | IN(EVENT) | IN(CONTINUOUS)) != OK) return fmi3Error;
@@ -227,6 +225,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *need_update, fm
     int64_t impacts = COUNTERS(x)[CODE_COUNT_IMPACTS];
     if (update_events(x, "fmi3UpdateDiscreteStates", &news) != OK) return fmi3Error;
     note_impacts(x, impacts);
+    if (need_update) *need_update = x->head.clock != 0; /* the next update ends the clock's tick, which is read before it */
     if (states_changed) *states_changed = news.states_changed != 0;
     if (next_event_defined) *next_event_defined = news.next_time < INFINITY;
     if (next_event_time) *next_event_time = news.next_time;
@@ -436,9 +435,11 @@ fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c) {
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean no_way_back, fmi3Boolean *enter_event_mode,
                                        fmi3Boolean *terminate) {
     SELF(c);
-    if (enter_event_mode) *enter_event_mode = fmi3False;
+    int wants_events = 0;
+    Status status = complete_step(x, "fmi3CompletedIntegratorStep", &wants_events);
+    if (enter_event_mode) *enter_event_mode = wants_events != 0;
     if (terminate) *terminate = fmi3False;
-    return (fmi3Status)complete_step(x, "fmi3CompletedIntegratorStep");
+    return (fmi3Status)status;
 }
 
 fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time) {

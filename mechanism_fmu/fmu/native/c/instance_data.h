@@ -25,6 +25,7 @@ typedef struct {
     int64_t clock; /* FMI 3.0: there was an impact: the clock ticks in the event mode that is on, or may come next */
     int64_t left;  /* FMI 3.0: outputs are those before the impact, `left_outputs`, until the discrete states are updated */
     int64_t exchange; /* Model Exchange, not co-simulation */
+    int64_t updated;  /* Model Exchange: the discrete states have been updated in this event mode */
 } Head;
 
 struct Instance {

@@ -79,7 +79,7 @@ static Status check_head(const Instance *x, const Head *head) {
     int running = head->phase >= STEPPING;
     if (head->phase < INSTANTIATED || head->phase > CONTINUOUS || !(IN(head->phase) & phases))
         return refuse(x, "%sthere is no phase %lld.", CHANGED, (long long)head->phase);
-    if ((head->set_up | head->prepared | head->clock | head->left | head->exchange) & ~(int64_t)1)
+    if ((head->set_up | head->prepared | head->clock | head->left | head->exchange | head->updated) & ~(int64_t)1)
         return refuse(x, "%sa flag is neither 0 nor 1.", CHANGED);
     if ((running && !head->prepared) || (head->phase != INSTANTIATED && !head->set_up))
         return refuse(x, "%sit is in phase %lld, but was not set up or did not begin.", CHANGED, (long long)head->phase);
