@@ -80,7 +80,7 @@ def test_the_structure_lists_every_unknown_once(root):
 
 def test_dependencies_are_what_can_be_known(root):
     causality = [element.get("causality") for element, _ in variables(root).values()]
-    known = {"Outputs": {"input"}, "InitialUnknowns": {"input", "parameter"}}
+    known = {"Outputs": {"input", "local"}, "InitialUnknowns": {"input", "parameter"}}  # local: states
     for part, allowed in known.items():
         unknowns = root.find(f"ModelStructure/{part}")
         assert len(unknowns) > 0

@@ -169,10 +169,11 @@ def test_structure_names_dependencies_by_value_reference(ratchet: ModelDescripti
     reference = {v.name: v for v in ratchet.modelVariables}
     outputs = {u.variable.name: u for u in ratchet.outputs}
     inputs = [v for v in ratchet.modelVariables if v.causality == "input"]
+    states = [v.derivative for v in ratchet.modelVariables if v.derivative is not None]
 
-    assert outputs["contact_force"].dependencies == inputs
-    assert outputs["wheel_angle"].dependencies == []
-    assert outputs["drive_shaft_torque"].dependencies == [reference["drive_angle"], reference["drive_speed"]]
+    assert outputs["contact_force"].dependencies == [*inputs, *states]
+    assert outputs["wheel_angle"].dependencies == states
+    assert outputs["drive_shaft_torque"].dependencies == [reference["drive_angle"], reference["drive_speed"], *states]
     assert outputs["impact"].dependencies == []
     unknown = {u.variable.name: u for u in ratchet.initialUnknowns}
     assert unknown["tooth_pitch"].dependencies == [v for v in ratchet.modelVariables if v.causality == "parameter"]
