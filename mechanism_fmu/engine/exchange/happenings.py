@@ -103,7 +103,9 @@ def _happen(block: Array, first: bool) -> int:
     """
     keep_small()
     clear(Contacts(block).apart)
-    copy(Course(block).y_end, Exchange(block).seen_y)  # outlines are looked at from here on
+    now = Course(block)
+    now.clock[codes.COMPLETED] = now.clock[codes.TIME]  # outlines are looked at from here on
+    copy(now.y_end, Exchange(block).seen_y)
     outcome, some = _happen_in_turn(block)
     if outcome == status.OK and inputs_changed(block):
         take_inputs(block)

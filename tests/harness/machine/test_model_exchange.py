@@ -104,6 +104,16 @@ def test_a_snapshot_of_a_ball_in_flight(foreign, instance):
     assert after[0] == pytest.approx(after[1], rel=1e-8)
 
 
+def test_outlines_are_followed_from_any_communication_point(built, instance):
+    """Ticks of a pin pallet: what is asked for between the integrator's steps is no step."""
+    path = built("pin_pallet", build_native_fmu)
+    stepped, integrated = (instance(path, integrator) for integrator in (None, Integrator()))
+    for slave in (stepped, integrated):
+        steps(slave, 20, 0.01)
+    names = ["balance_angle", "wheel_angle", "impact_count"]
+    assert integrated.get(names) == pytest.approx(stepped.get(names), rel=1e-7)
+
+
 @pytest.mark.parametrize("when", [0, 50])
 def test_a_snapshot_as_bytes_goes_on_in_another_instance(built, instance, when):
     path = built("ratchet", build_native_fmu)
