@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import struct
+from abc import abstractmethod
 from collections.abc import Mapping
 from ctypes import POINTER, c_double, cast
 from dataclasses import replace
@@ -49,12 +50,13 @@ class _ModelExchange(FmuSlave):
         self._next = math.inf
         self._open(description, folder, name, on_message)
 
+    @abstractmethod
     def _open(self, description: Description, folder: Path, name: str, on_message: MessageHandler) -> None:
-        raise NotImplementedError
+        """Load the library and make an instance, as `FmuSlave` does."""
 
+    @abstractmethod
     def _counts(self) -> tuple[int, int]:
         """How many states and event indicators there are."""
-        raise NotImplementedError
 
     def set(self, values: Mapping[str, Value]) -> None:
         """Set variables by name; once it runs, in event mode."""
@@ -185,8 +187,9 @@ class _ModelExchange(FmuSlave):
             f"{self._FMI} Model Exchange", f"its discrete states do not settle in {MOST_UPDATES} updates"
         )
 
+    @abstractmethod
     def _update(self) -> Any:
-        raise NotImplementedError
+        """Update the discrete states once: needs one more, ends, nominals and states changed, announces, when [s]."""
 
     def _go_to(self, time: float, states: Numbers) -> None:
         self._instance.setTime(time)

@@ -62,8 +62,9 @@ def test_only_real_outputs_are_continuous(root):
 
 def test_initial_belongs_to_the_causality(root):
     expected = {"input": None, "output": "calculated", "parameter": "exact", "calculatedParameter": "calculated"}
+    expected["local"] = "calculated"  # states and their derivatives
     for name, (element, value) in variables(root).items():
-        assert element.get("initial") == expected.get(element.get("causality"), "calculated"), name
+        assert element.get("initial") == expected[element.get("causality")], name
         assert ("start" in value.attrib) == (element.get("causality") in ("input", "parameter")), name
 
 
