@@ -321,9 +321,9 @@ def _deepest(before: float, rate_before: float, after: float, rate_after: float,
     A gap that is below zero at the end of this step is what an importer without a root finder goes into event mode for.
     """
     keep_small()
+    if before < -TOUCHES_WITHIN and after < -TOUCHES_WITHIN:
+        return -after
     shallow = TOUCHES_WITHIN + _DIP_SHARE * (abs(before) + abs(after))
-    if before < -shallow and after < -shallow:
-        return -before
     if not (before > 0.0 and after > 0.0 and rate_before < 0.0 < rate_after):
         return 0.0
     left = 0.0
