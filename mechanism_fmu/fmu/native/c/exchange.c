@@ -185,12 +185,19 @@ static double *known_place(Instance *x, const char *call, unsigned vr) {
     return NULL;
 }
 
-static Status ready(Instance *x, const char *call, const void *a, const void *b, const void *c, const void *d) {
-    if (!a || !b || !c || !d) return refuse(x, "%s: a pointer is null.", call);
+/* What both derivatives begin with: pointers, phase, unknowns that have one, and no seeds yet. */
+static Status ready(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
+                    size_t knowns, const double seed[], size_t seeds, const double value[]) {
+    if ((unknowns && !unknown) || (knowns && !known) || (seeds && !seed) || !value)
+        return refuse(x, "%s: a pointer is null.", call);
     if (require(x, call, IN(INITIALIZATION) | IN(STEPPING) | RUNNING | IN(TERMINATED)) != OK || prepare(x) != OK)
         return ERROR;
+    size_t place;
+    for (size_t k = 0; k < unknowns; k++)
+        if (unknown_place(x, call, unknown[k], &place) != OK) return ERROR;
     memset(FIELD(x, input_seed), 0, model.inputs * sizeof(double));
     memset(FIELD(x, state_seed), 0, state_count(x) * sizeof(double));
+    x->outputs_read = 0;
     return OK;
 }
 
@@ -203,18 +210,14 @@ static Status check_finite(Instance *x, const char *call, double value) {
 Status directional(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
                    size_t knowns, const double seed[], double value[]) {
     if (unknowns == 0) return OK;
-    if (ready(x, call, unknown, knowns ? (const void *)known : unknown, knowns ? (const void *)seed : unknown, value) != OK)
-        return ERROR;
+    if (ready(x, call, unknown, unknowns, known, knowns, seed, knowns, value) != OK) return ERROR;
     size_t place;
-    for (size_t k = 0; k < unknowns; k++)
-        if (unknown_place(x, call, unknown[k], &place) != OK) return ERROR;
     for (size_t k = 0; k < knowns; k++) {
         double *to = known_place(x, call, known[k]);
         if (!to) return ERROR;
         *to += seed[k];
     }
     mechanism_respond(x->block, (int64_t)model.words);
-    x->outputs_read = 0;
     for (size_t k = 0; k < unknowns; k++) {
         unknown_place(x, call, unknown[k], &place);
         value[k] = FIELD(x, response)[place];
@@ -227,11 +230,8 @@ Status directional(Instance *x, const char *call, const unsigned unknown[], size
 Status adjoint(Instance *x, const char *call, const unsigned unknown[], size_t unknowns, const unsigned known[],
                size_t knowns, const double seed[], double value[]) {
     if (knowns == 0) return OK;
-    if (ready(x, call, known, unknowns ? (const void *)unknown : known, unknowns ? (const void *)seed : known, value) != OK)
-        return ERROR;
+    if (ready(x, call, unknown, unknowns, known, knowns, seed, unknowns, value) != OK) return ERROR;
     size_t place;
-    for (size_t k = 0; k < unknowns; k++)
-        if (unknown_place(x, call, unknown[k], &place) != OK) return ERROR;
     for (size_t k = 0; k < knowns; k++) {
         double *to = known_place(x, call, known[k]);
         if (!to) return ERROR;
@@ -245,6 +245,5 @@ Status adjoint(Instance *x, const char *call, const unsigned unknown[], size_t u
         }
         if (check_finite(x, call, value[k]) != OK) return DISCARD;
     }
-    x->outputs_read = 0;
     return OK;
 }
