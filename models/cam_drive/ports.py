@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from types import SimpleNamespace
 
 from mechanism_fmu.model import Bar, Calculated, Disc, Hinge, Output, Parameter, Striker, Wheel, port_builders as ports
@@ -115,12 +114,7 @@ PARAMETERS = (
         "cam_speed_start", 2 * math.pi, "Cam speed at the start; the follower's follows", usual=(0.0, 10 * math.pi)
     ),
     ports.stiffness_parameter("spring_stiffness", 0.1, "Stiffness of the return spring"),
-    # Beyond it, implicit steps get as short as accuracy takes (decision 061).
-    replace(
-        ports.torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
-        minimum=-1e3,
-        maximum=1e3,
-    ),
+    ports.torque_parameter("spring_preload", 0.02, "Torque of the return spring on the base circle"),
     ports.damping_parameter("follower", usual=(0.0, 1e-2)),
     *ports.shaft_parameters(damping=1.0),
     ports.flag_parameter(
