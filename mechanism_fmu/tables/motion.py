@@ -244,7 +244,8 @@ class Implicit(Table, prefix="implicit_"):
     """Scratch of a linearly implicit step; none in mechanisms that are too large for it.
 
     The Jacobian of the derivative at y_start and the change of that with time, and whether they are of this y_start;
-    L and U of the linear system, and its pivots; the increments of the stages; a right side, and one without q.
+    L and U of the linear system, and its pivots; the increments of the stages; a right side, and one without q; the
+    powers of all forces together, without their signs, at the end of the step [W].
     """
 
     jacobian = real("implicit", "implicit", work=True)
@@ -255,6 +256,7 @@ class Implicit(Table, prefix="implicit_"):
     increment = real(RODAS5P.stages, "implicit", work=True)
     right = real("implicit", work=True)
     rest = real("implicit_rates", work=True)
+    turnover = real(1, name="implicit_turnover", work=True)
 
 
 class Strikes(Table, rows="contacts", prefix="contact_"):

@@ -116,7 +116,9 @@ def test_order_of_the_step_is_five(method):
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_order_of_the_step_is_five_in_time_too(method):
     """A single node of the method that is off by 1 % leaves order 1."""
-    errors = [errors_of_steps("driver", 0.0, END / count, count, method)[0] for count in (32, 64, 128, 256)]
+    # an implicit step mends the rates that the driver gives exactly: of more steps only rounding is left
+    counts = (32, 64, 128, 256) if method == codes.EXPLICIT else (16, 32, 64)
+    errors = [errors_of_steps("driver", 0.0, END / count, count, method)[0] for count in counts]
     within = 0.1 if method == codes.EXPLICIT else 0.25  # differences with time lack digits
     assert orders(errors).mean() == pytest.approx(METHOD.order, abs=within)
 
@@ -126,9 +128,9 @@ def test_order_of_the_step_is_five_in_time_too(method):
 @pytest.mark.parametrize("start", [0.0, 0.5, 1.0, 1.5])
 def test_order_of_the_dense_output_is_four(start, cause, method):
     """Inside a single step from the exact state the error is of order 5; a cubic would leave one of order 4."""
-    errors = [errors_of_steps(cause, start, step, 1, method)[1] for step in (0.08, 0.04, 0.02)]
-    # Rodas5P's terms of the next order are still seen there
-    within = 0.1 if method == codes.EXPLICIT else 0.3
+    # Rodas5P's terms of the next order are still seen
+    longest, within = (0.08, 0.1) if method == codes.EXPLICIT else (0.04, 0.2)
+    errors = [errors_of_steps(cause, start, longest / part, 1, method)[1] for part in (1, 2, 4)]
     np.testing.assert_allclose(orders(errors), METHOD.dense_order + 1, atol=within)
 
 

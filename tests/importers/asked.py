@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from fmpy import read_model_description
+
+from tests.importers.forms import Form
 
 #: What these say is of the last communication step alone, and event mode makes it shorter.
 _OF_THE_STEP = {"impact", "impacts_in_step", "impacts_lost", "events_in_step"}
@@ -41,6 +44,7 @@ class Asked:
         steps: how many.
         outputs: that are wanted at the end.
         event_mode: use event mode and early return.
+        exchange: integrate it, as Model Exchange.
         needs_python: the FMU runs in the host's Python.
         folder: for files, empty.
     """
@@ -52,6 +56,7 @@ class Asked:
     steps: int
     outputs: tuple[Output, ...]
     event_mode: bool
+    exchange: bool
     needs_python: bool
     folder: str
 
@@ -79,23 +84,38 @@ class Asked:
         return cls(**found | {"outputs": tuple(Output(**output) for output in found["outputs"])})
 
 
-def asked(fmu: Path, folder: Path, event_mode: bool = False, most_steps: int = 200) -> Asked:
-    """The default experiment of an FMU, or its beginning, with all outputs that do not speak of the last step alone."""
+def asked(fmu: Path, folder: Path, form: Form | None = None, until: float = math.inf, most_steps: int = 200) -> Asked:
+    """The default experiment of an FMU, or its beginning, with all outputs that do not speak of the last step alone.
+
+    Args:
+        fmu: the file.
+        folder: for files, empty.
+        form: in which it is run; the simplest one.
+        until: end of what two integrators of different tolerances can be compared over [s]; with it, without outputs
+            that count hops which either may sum up.
+        most_steps: so many steps at most.
+    """
     description = read_model_description(str(fmu))
     experiment = description.defaultExperiment
     step = float(experiment.stepSize)
-    steps = min(most_steps, round(float(experiment.stopTime) / step))
+    steps = min(most_steps, round(min(until, float(experiment.stopTime)) / step))
+    compared = (v for v in description.modelVariables if _lasts(v) and (until == math.inf or _is_integrated(v.name)))
     return Asked(
         str(fmu),
         description.coSimulation.modelIdentifier,
         int(description.fmiVersion[0]),
         step,
         steps,
-        tuple(Output(v.name, _KINDS[v.type], v.valueReference) for v in description.modelVariables if _lasts(v)),
-        event_mode,
+        tuple(Output(v.name, _KINDS[v.type], v.valueReference) for v in compared),
+        form is not None and form.event_mode,
+        form is not None and form.exchange,
         bool(description.coSimulation.needsExecutionTool),
         str(folder),
     )
+
+
+def _is_integrated(name: str) -> bool:
+    return name.endswith(("_angle", "_speed", "energy_lost")) and not name.startswith("impact")
 
 
 def _lasts(variable: Any) -> bool:

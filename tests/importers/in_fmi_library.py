@@ -33,11 +33,14 @@ def run(asked: Asked) -> Values:
     folder = Path(asked.folder)
     program, unzipped = folder / "fmi_library", folder / "unzipped"
     unzipped.mkdir()
-    library, source = _folder() / "lib", Path(__file__).with_name("fmi_library.c")
+    library = _folder() / "lib"
+    source = Path(__file__).with_name("fmi_library_exchange.c" if asked.exchange else "fmi_library.c")
     compile_it = ["cc", "-O1", "-Wall", "-Wextra", "-Werror", "-isystem", str(_folder() / "include"), str(source)]
-    linked = [f"-L{library}", f"-Wl,-rpath,{library}", "-lfmilib_shared", "-ldl", "-o", str(program)]
+    linked = [f"-L{library}", f"-Wl,-rpath,{library}", "-lfmilib_shared", "-ldl", "-lm", "-o", str(program)]
     subprocess.run([*compile_it, *linked], check=True)
-    arguments = [asked.fmu, str(unzipped), repr(asked.step), str(asked.steps), str(int(asked.event_mode))]
+    arguments = [asked.fmu, str(unzipped), repr(asked.step), str(asked.steps)]
+    if not asked.exchange:
+        arguments.append(str(int(asked.event_mode)))
     environment = {**os.environ, **libpython()} if asked.needs_python else {}
     command = [str(program), *arguments, *asked.names()]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
@@ -56,4 +59,5 @@ def _folder() -> Path:
     return Path(os.environ.get("FMILIB", "/usr/local"))
 
 
-TOOL = Tool("FMI Library", ("fmi2", "fmi3", "fmi3_events", "clocks", *BY_PYTHONFMU), run, missing, version)
+_FORMS = ("fmi2", "fmi3", "fmi3_events", "clocks", *BY_PYTHONFMU, "exchange2", "exchange3")
+TOOL = Tool("FMI Library", _FORMS, run, missing, version)

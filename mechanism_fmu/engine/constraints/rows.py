@@ -151,6 +151,15 @@ def driver_power(block: Array) -> float:
 
 
 @jit
+def drift_power(block: Array, count: int) -> float:
+    """Power of the forces along active rows on what rates are off by, with the multipliers of the last solve [W]."""
+    power = 0.0
+    for r in range(count):
+        power += LinearSystem(block).multiplier[r] * Rows(block).residual_rate[r]
+    return power
+
+
+@jit
 def row_count(block: Array) -> int:
     """The number of active rows."""
     mode = Contacts(block).mode

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Pose, Rows
 from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.entries import along_row
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
-from ..constraints.rows import active_rows, driver_power, follow_open_contacts, stabilise
+from ..constraints.rows import active_rows, drift_power, driver_power, follow_open_contacts, stabilise
 from ..constraints.wear import wear_by_sliding
 from ..outlines.advance import come_nearer
 from ..profiles.nearest import settle_contact_points
@@ -42,6 +43,8 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
         dy[k] = y[n + k]
         dy[n + k] = free[k] + root[k] * correction[k]
     dy[Sizes(block).y_work] = given + driver_power(block)
+    if Course(block).counters[codes.IMPLICIT] == 1:  # its stages are off the constraints by more than others
+        dy[Sizes(block).y_work] += drift_power(block, count)
     dy[Sizes(block).y_loss] = lost
     if Sizes(block).wears > 0:
         wear_by_sliding(block, at, dy)
@@ -102,7 +105,7 @@ def close_rows(block: Array, y: Array, most: float, most_rate: float) -> bool:
     n = Sizes(block).coordinates
     count, moved = close_positions(block, y, most)
     if moved or largest(Rows(block).residual_rate, count) > most_rate:
-        _correct(block, count, Rows(block).residual_rate, y[n:])
+        correct(block, count, Rows(block).residual_rate, y[n:])
         moved = True
     return moved
 
@@ -119,22 +122,40 @@ def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
     count = active_rows(block, at)
     if not largest(Rows(block).residual, count) > most:
         return count, False
-    come_nearer(block, _correct(block, count, Rows(block).residual, y))
+    come_nearer(block, correct(block, count, Rows(block).residual, y))
     at = place_bodies(block, y)
     settle_contact_points(block, at, y)
     return active_rows(block, at), True
 
 
 @jit
-def _correct(block: Array, count: int, left: Array, values: Array) -> float:
+def correct(block: Array, count: int, left: Array, values: Array) -> float:
     """Values += -M^-1/2 D^+ left; return the most by which one is changed."""
     keep_small()
+    scale_rows(block, count)
+    for r in range(count):
+        LinearSystem(block).right_side[r] = -left[r]
+    return _change(block, count, values)
+
+
+@jit
+def take_off(block: Array, count: int, part: float, values: Array) -> None:
+    """Take from coordinates or rates, shape (coordinates,), a part of what leads off the active rows."""
+    keep_small()
+    row = Rows(block)
+    scale_rows(block, count)
+    for r in range(count):
+        LinearSystem(block).right_side[r] = -part * along_row(row, r, values, Sizes(block).bodies, 0.0)
+    _change(block, count, values)
+
+
+@jit
+def _change(block: Array, count: int, values: Array) -> float:
+    """Values += M^-1/2 z with the least z of D z = `right_side`; return the most by which one is changed."""
+    keep_apart()
     n = Sizes(block).coordinates
     root = Bodies(block).inverse_root_mass
     system = LinearSystem(block)
-    scale_rows(block, count)
-    for r in range(count):
-        system.right_side[r] = -left[r]
     solve(block, count, n)
     most = 0.0
     for k in range(n):

@@ -17,13 +17,15 @@ import numpy as np
 from ...tables.declare import Array
 from ...tables.implicit_method import RODAS5P
 from ...tables.method import METHOD
-from ...tables.motion import Implicit, Stages
+from ...tables.motion import Implicit, Loads, Rows, Stages
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..dynamics.acceleration import derivative
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import active_rows
+from ..dynamics.acceleration import correct, derivative, take_off
 from ..dynamics.forces import set_time
 from ..elementary import exp, log
-from ..vectors import copy
+from ..vectors import clear, copy
 from .stage import evaluate_stage
 
 _STAGES = RODAS5P.stages
@@ -43,6 +45,8 @@ _MOVES = 2.0**-26
 _MOVES_AT_LEAST = 1e-3
 #: And the time, by such a part of the step.
 _MOVES_TIME = 1e-3
+#: So much counts what of a step's error leads off the constraints: mending takes it away, but not from within the step.
+_DRIFT_COUNTS = 0.02
 #: Products with the Jacobian, and how many of them, an even number, tell how much it can grow in one.
 _PRODUCTS = 6
 _MEASURED = 4
@@ -81,7 +85,53 @@ def implicit_stages(block: Array, start: float, h: float) -> None:
         _solve(block, h, u[r])
     for i in range(n):
         s.y_new[i] = s.y_stage[i] + u[_LAST, i]
+    table.turnover[0] = _turnover(block)
+    _mend_rates(block, h)
     _write_dense(block)
+    _weigh_drift(block)
+
+
+@jit
+def _turnover(block: Array) -> float:
+    """The powers of all forces together, without their signs, at the last stage [W]."""
+    total = 0.0
+    n = Sizes(block).coordinates
+    for k in range(n):
+        total += abs(Loads(block).force[k] * Stages(block).y_stage[n + k])
+    return total
+
+
+@jit
+def _weigh_drift(block: Array) -> None:
+    """Of the error that leads off the constraints, which mending takes away, let a part only count."""
+    keep_apart()
+    s = Stages(block)
+    error = Implicit(block).increment[_LAST]
+    n = Sizes(block).coordinates
+    count = active_rows(block, place_bodies(block, s.y_new))
+    take_off(block, count, 1.0 - _DRIFT_COUNTS, error[:n])
+    take_off(block, count, 1.0 - _DRIFT_COUNTS, error[n : 2 * n])
+
+
+@jit
+def _mend_rates(block: Array, h: float) -> None:
+    """Bring the rates of y_new back to the constraints with the step's own matrix in place of the masses.
+
+    By the masses alone, what is damped hard would be moved as well, and come back within the next step by large forces,
+    which lead off the constraints again: from step to step more, where steps are long.
+    """
+    keep_apart()
+    s = Stages(block)
+    table = Implicit(block)
+    n = Sizes(block).coordinates
+    count = active_rows(block, place_bodies(block, s.y_new))
+    clear(table.right)
+    correct(block, count, Rows(block).residual_rate, table.right[n : 2 * n])
+    for k in range(n, 2 * n):
+        table.right[k] /= h * _GAMMA
+    _solve(block, h, s.y_at)
+    for k in range(n, 2 * n):
+        s.y_new[k] += s.y_at[k]
 
 
 @jit
@@ -89,6 +139,18 @@ def error_of_implicit(block: Array, i: int) -> float:
     """Local error of unknown `i` in the implicit step last tried."""
     error: float = Implicit(block).increment[_LAST, i]
     return error
+
+
+@jit
+def passed_on(block: Array, i: int, h: float) -> float:
+    """For work and loss, the energy that all forces together have passed on in the step of size `h` [s]; 0 for others.
+
+    Where a large force holds another, their powers cancel, and no work is more exact than the rounding of either.
+    """
+    if Sizes(block).y_work <= i < Sizes(block).y_alpha:
+        energy: float = h * Implicit(block).turnover[0]
+        return energy
+    return 0.0
 
 
 @jit

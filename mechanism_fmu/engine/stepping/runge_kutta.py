@@ -21,7 +21,7 @@ from ..dynamics.forces import set_time
 from ..elementary import power
 from ..interpolation import write_dense
 from ..vectors import clear, largest
-from .rosenbrock import error_of_implicit, implicit_stages
+from .rosenbrock import error_of_implicit, implicit_stages, passed_on
 from .stage import evaluate_stage
 
 _STAGES = METHOD.stages
@@ -129,9 +129,11 @@ def scaled_error(block: Array, i: int, h: float) -> float:
         if _ERROR[j] != 0.0:
             error += _ERROR[j] * k[j, i]
     error *= h
+    size = ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i]))
     if Course(block).counters[codes.IMPLICIT] == 1:
         error = error_of_implicit(block, i)
-    scale: float = relative * (ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i])))
+        size += passed_on(block, i, h)
+    scale: float = relative * size
     return error / scale
 
 

@@ -27,15 +27,12 @@ from .link import TARGETS, WEB, Target
 _WEB_FEATURES = "+bulk-memory,+mutable-globals,+nontrapping-fptoint,+sign-ext"
 
 #: Modules of the engine whose functions every evaluation runs through some hundred times: in place of their calls.
-_IN_PLACE = (
-    *("vectors", "constraints.entries", "stepping.runge_kutta"),
-    *(f"dynamics.{name}" for name in ("sparse", "minimum_norm", "linear_solve", "islands")),
-)
+_IN_PLACE = ("vectors", "constraints.entries", "stepping.runge_kutta", "dynamics.minimum_norm")
 
-#: What runs once at a start, an event, or where an importer asks for it: rather short than fast.
+#: What runs once in a step or less, or on few numbers only: rather short than fast.
 _SHORT = (
-    *("starting", "contacts", "exchange"),
-    *(f"library.{name}" for name in ("_begin", "_exchange", "_respond", "_read_output_rates")),
+    *("starting", "contacts", "exchange", "outlines", "outputs", "stepping.rosenbrock"),
+    *(f"library.{name}" for name in ("_begin", "_begin_step", "_exchange", "_respond", "_read_output_rates")),
 )
 
 
