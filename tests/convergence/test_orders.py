@@ -128,10 +128,12 @@ def test_order_of_the_step_is_five_in_time_too(method):
 @pytest.mark.parametrize("start", [0.0, 0.5, 1.0, 1.5])
 def test_order_of_the_dense_output_is_four(start, cause, method):
     """Inside a single step from the exact state the error is of order 5; a cubic would leave one of order 4."""
-    # Rodas5P's terms of the next order are still seen
-    longest, within = (0.08, 0.1) if method == codes.EXPLICIT else (0.04, 0.2)
-    errors = [errors_of_steps(cause, start, longest / part, 1, method)[1] for part in (1, 2, 4)]
-    np.testing.assert_allclose(orders(errors), METHOD.dense_order + 1, atol=within)
+    errors = [errors_of_steps(cause, start, 0.08 / part, 1, method)[1] for part in (1, 2, 4, 8)]
+    found = orders(errors)
+    if method == codes.EXPLICIT:
+        np.testing.assert_allclose(found[:2], METHOD.dense_order + 1, atol=0.1)
+    else:  # terms of the next order are still seen, one way or the other
+        assert found.mean() == pytest.approx(METHOD.dense_order + 1, abs=0.2)
 
 
 #: Above the first range of tolerances every step drifts by more than `acceleration.MOST_DRIFT` and is put back on the
