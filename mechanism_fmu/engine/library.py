@@ -16,7 +16,7 @@ from numba import carray, cfunc, types
 from .compiler.just_in_time import compiled_inner
 from .compiler.machine_code import InnerCompiler
 from .elementary import atan2, cos, sin, tan
-from .exchange.happenings import exchange
+from .exchange.events import exchange
 from .exchange.sensitivities import respond
 from .outputs import read_output_rates, read_outputs
 from .starting.begin import begin

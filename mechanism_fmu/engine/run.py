@@ -39,7 +39,7 @@ class NotCompiledError(RuntimeError):
 
 
 class Engine(NamedTuple):
-    """The entry points for one block: see `begin`, `stepper`, `outputs`, `happenings`, `sensitivities`."""
+    """The entry points for one block: see `begin`, `stepper`, `outputs`, `events`, `sensitivities`."""
 
     begin: Callable[[float], int]
     advance: Callable[[float], int]
@@ -71,7 +71,7 @@ def engine_for(block: Array, library: ctypes.CDLL | None = None) -> Engine:
             "There is no compiled engine for this platform, and the package numba, which compiles one, is not "
             "installed. Install it: python -m pip install numba; in a clone: python -m pip install -e '.[dev]'"
         )
-    from .exchange.happenings import exchange
+    from .exchange.events import exchange
     from .exchange.sensitivities import respond
     from .outputs import read_output_rates, read_outputs
     from .starting.begin import begin

@@ -22,8 +22,8 @@ def definition(function: str, file: str) -> str:
     return rf"^ *(def|class) {function}\(" if file.endswith(".py") else rf"^\w[\w *]*\b{function}\("
 
 
-def test_the_page_has_four_walks() -> None:
-    assert PAGE.read_text("utf-8").count("\n## ") == 5
+def test_the_page_has_five_walks() -> None:
+    assert PAGE.read_text("utf-8").count("\n## ") == 6
     assert len(STEPS) > 40
 
 

@@ -20,7 +20,7 @@
 - A stop with memory, the end of a feature, a pattern's boundaries, a logical function: how far each is from its change.
 - Friction: the slip speed of what slips; what friction of what sticks could hold more.
 
-Each is scaled to order 1, and lifted above zero where an event has left it below (`happenings`). What cannot happen in
+Each is scaled to order 1, and lifted above zero where an event has left it below (`events`). What cannot happen in
 the present mode is 1.
 """
 

@@ -12,39 +12,35 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Exchange, Pose, Rubs
+from ...tables.motion import Course, Exchange, Pose
 from ...tables.parts import Contacts, Joints
 from ...tables.sizes import Sizes
 from ...tolerances import GAP_NOISE, RESTS_BELOW, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import entry, jit, keep_apart, keep_small
-from ..constraints.friction_rows import touches
 from ..constraints.kinematics import place_bodies
-from ..contacts.binding import bind, deepest_overlap, is_free, is_outline, let_loose, take_found
+from ..contacts.binding import bind, is_free, let_loose, take_found
 from ..contacts.guards import gap, guard_of
 from ..contacts.impact import clear_records
 from ..contacts.inside import blame
 from ..contacts.transition import release, transit
 from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_positions, mend
 from ..dynamics.forces import inputs_changed, take_inputs
-from ..dynamics.oscillation import observe
 from ..outlines.nearest import MEETS, look_no_deeper, nearest
-from ..stepping.step import watch_at
 from ..stepping.step_size import left_to_piece, smallest_step
 from ..stepping.stepper import restart
 from ..vectors import clear, copy
+from .completed_step import look_through, note, set_clock
 from .indicators import (
     DUE,
     can_happen,
     due_below,
     evaluate,
-    forget_apart,
     happens,
     indicator,
     is_leaving,
     length_scale,
     lift,
-    measure,
     unseen,
     what_forbids,
     write_indicators,
@@ -54,9 +50,6 @@ from .indicators import (
 _DEEPEST_SHARE = 5e-3
 #: So many things in turn at one instant are no motion any more.
 _MOST_HAPPENINGS = 100
-#: A dip of the cubic through gaps and rates at two steps counts that is deeper than this part of the gaps there: it is
-#: no more accurate.
-_DIP_SHARE = 0.01
 
 
 @entry
@@ -69,7 +62,7 @@ def exchange(block: Array, what: int, time: float) -> int:
     says whether event mode is to follow.
     """
     keep_small()
-    _set_clock(block, time)
+    set_clock(block, time)
     if what == codes.EXCHANGE_RATES:
         evaluate(block)
         return what_forbids(block)
@@ -77,21 +70,11 @@ def exchange(block: Array, what: int, time: float) -> int:
         write_indicators(block)
         return status.OK
     if what == codes.EXCHANGE_COMPLETED:
-        return _complete(block)
+        return look_through(block)
     outcome = _happen(block, what == codes.EXCHANGE_EVENTS)
     if outcome == status.OK:
         _settle(block)
     return outcome
-
-
-@jit
-def _set_clock(block: Array, time: float) -> None:
-    """There is no step of the engine's own."""
-    clock = Course(block).clock
-    clock[codes.TIME] = time
-    clock[codes.STEP_START] = time
-    clock[codes.STEP_END] = time
-    clock[codes.STEP_SIZE] = 0.0
 
 
 @jit
@@ -241,136 +224,10 @@ def _settle(block: Array) -> None:
         if Contacts(block).mode[c] == codes.OPEN and not is_free(block, c):
             table.leaves[c] = 1 if gap(block, at, c)[0] <= TOUCHES_WITHIN else 0
     at = evaluate(block)
-    _note(block, at)
+    note(block, at)
     for g in range(Sizes(block).guards):
         lift(block, at, g, 2.0 * DUE)
     _find_next_piece(block)
-
-
-@jit
-def _note(block: Array, at: Pose) -> None:
-    """What the next completed step is compared with: gaps, gap rates, unknowns and their derivatives."""
-    keep_small()
-    now = Course(block)
-    table = Exchange(block)
-    now.clock[codes.COMPLETED] = now.clock[codes.TIME]
-    copy(now.y_end, table.seen_y)
-    copy(now.dy_end, table.seen_rates)
-    for c in range(table.leaves.shape[0]):
-        if _is_looked_at(block, c):
-            table.seen[c, 0], table.seen[c, 1] = gap(block, at, c)
-    measure(block, at)
-
-
-@jit
-def _is_looked_at(block: Array, contact: int) -> bool:
-    """Whether it is the gap of a contact that its indicator is of; distances of outlines have no rate."""
-    keep_small()
-    opened: bool = Contacts(block).mode[contact] == codes.OPEN and can_happen(block, contact)
-    return opened and not is_outline(block, contact) and Exchange(block).leaves[contact] == 0
-
-
-@jit
-def _complete(block: Array) -> int:
-    """Look for a gap that was zero within the step, and time what swings; return a status."""
-    keep_small()
-    now = Course(block)
-    table = Exchange(block)
-    at = evaluate(block)
-    outcome = what_forbids(block)
-    if outcome != status.OK:
-        return outcome
-    size = now.clock[codes.TIME] - now.clock[codes.COMPLETED]
-    for c in range(table.leaves.shape[0]):
-        if size > 0.0 and _is_looked_at(block, c):
-            distance, rate = gap(block, at, c)
-            depth = _deepest(table.seen[c, 0], table.seen[c, 1], distance, rate, size)
-            if depth > 0.0:
-                blame(block, c, -depth)
-                return status.PASSED_OVER
-    if Sizes(block).outlines > 0:
-        forget_apart(block, at)
-        contact, overlap = deepest_overlap(block, at)
-        if contact != codes.NONE and overlap > 2.0 * unseen(block, contact):
-            blame(block, contact, -overlap)
-            return status.PASSED_OVER
-    if size > 0.0:
-        _write_cubic(block, size)
-        observe(block)
-        _set_clock(block, now.clock[codes.TIME])
-    watch_at(block, now.clock[codes.TIME])
-    _note(block, at)
-    table.wants_events[0] = 1 if _begins_to_rub(block) else 0
-    return status.OK
-
-
-@jit
-def _begins_to_rub(block: Array) -> bool:
-    """Whether friction that was none has become some, as of a brake that an input applies between events."""
-    keep_small()
-    begins = False
-    for k in range(Sizes(block).rubs):
-        begins = begins or (Rubs(block).slip[k] == codes.APART and touches(block, k))
-    return begins
-
-
-@jit
-def _deepest(before: float, rate_before: float, after: float, rate_after: float, size: float) -> float:
-    """How far below zero a gap has been that nothing has said, or 0: within the step, or since the step before.
-
-    A gap that is below zero at the end of this step is what an importer without a root finder goes into event mode for.
-    """
-    keep_small()
-    if before < -TOUCHES_WITHIN and after < -TOUCHES_WITHIN:
-        return -after
-    shallow = TOUCHES_WITHIN + _DIP_SHARE * (abs(before) + abs(after))
-    if not (before > 0.0 and after > 0.0 and rate_before < 0.0 < rate_after):
-        return 0.0
-    left = 0.0
-    right = 1.0
-    for _ in range(50):  # where the rate of the cubic is zero
-        middle = 0.5 * (left + right)
-        slope = _slope(before, rate_before * size, after, rate_after * size, middle)
-        if slope < 0.0:
-            left = middle
-        else:
-            right = middle
-    lowest = _cubic(before, rate_before * size, after, rate_after * size, left)
-    return -lowest if lowest < -shallow else 0.0
-
-
-@jit
-def _cubic(before: float, slope_before: float, after: float, slope_after: float, x: float) -> float:
-    change = after - before
-    bend = slope_before - change
-    return before + x * (change + (1.0 - x) * (bend + x * (change - slope_after - bend)))
-
-
-@jit
-def _slope(before: float, slope_before: float, after: float, slope_after: float, x: float) -> float:
-    change = after - before
-    bend = slope_before - change
-    last = change - slope_after - bend
-    return change + (1.0 - 2.0 * x) * bend + x * (2.0 - 3.0 * x) * last
-
-
-@jit
-def _write_cubic(block: Array, size: float) -> None:
-    """The dense output of the importer's step: the cubic through unknowns and derivatives at both ends (Hermite)."""
-    keep_small()
-    now = Course(block)
-    table = Exchange(block)
-    now.clock[codes.STEP_START] = now.clock[codes.COMPLETED]
-    now.clock[codes.STEP_SIZE] = size
-    for i in range(now.y_end.shape[0]):
-        change = now.y_end[i] - table.seen_y[i]
-        bend = size * table.seen_rates[i] - change
-        for row in range(now.dense.shape[0]):
-            now.dense[row, i] = 0.0
-        now.dense[0, i] = table.seen_y[i]
-        now.dense[1, i] = change
-        now.dense[2, i] = bend
-        now.dense[3, i] = change - size * now.dy_end[i] - bend
 
 
 @jit
