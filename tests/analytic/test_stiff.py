@@ -10,6 +10,7 @@ from hypothesis import given, settings, strategies as st
 from scipy.integrate import solve_ivp
 
 import models
+from benchmarks.world.cases.n_four_bar import n_four_bar
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
@@ -27,7 +28,6 @@ from mechanism_fmu.model import (
 )
 from mechanism_fmu.model.functions import maximum
 from mechanism_fmu.simulation import Simulation, SimulationError
-from tests.n_four_bar import n_four_bar
 
 INERTIA, TORQUE = 0.02, 3.0
 MOTOR = Torque("motor", "rotor", torque=TORQUE)

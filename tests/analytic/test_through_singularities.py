@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.world.cases.n_four_bar import GRAVITY, known, n_four_bar
 from mechanism_fmu import codes
 from mechanism_fmu.model import GROUND, Mechanism, PointLineContact, Settings
 from mechanism_fmu.simulation import Simulation, SimulationError
 from tests.driven_four_bar import MODEL as DRIVEN
-from tests.n_four_bar import GRAVITY, known, n_four_bar
 
 # Turns once in some 1.92 s, and lies flat twice in each.
 FIRST, BOTH = 1.0, 2.0

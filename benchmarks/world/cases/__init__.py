@@ -1,0 +1,11 @@
+"""The cases, one to a file, in the order of the index."""
+
+from __future__ import annotations
+
+from ..case import Case
+from . import andrews, bouncing_ball, equal_slider_crank, n_four_bar, pendulum, rockers, rocking_block
+
+CASES: dict[str, Case] = {
+    module.CASE.name: module.CASE
+    for module in (andrews, pendulum, n_four_bar, equal_slider_crank, rockers, bouncing_ball, rocking_block)
+}
