@@ -3,9 +3,22 @@
 from __future__ import annotations
 
 from ..case import Case
-from . import andrews, bouncing_ball, equal_slider_crank, n_four_bar, pendulum, rockers, rocking_block
+from . import (
+    andrews,
+    bouncing_ball,
+    equal_slider_crank,
+    n_four_bar,
+    pendulum,
+    rockers,
+    rocking_block,
+    trains,
+    woodpecker,
+)
 
 CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
-    for module in (andrews, pendulum, n_four_bar, equal_slider_crank, rockers, bouncing_ball, rocking_block)
+    for module in (
+        *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
+        *(trains, bouncing_ball, rocking_block, woodpecker),
+    )
 }
