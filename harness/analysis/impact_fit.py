@@ -123,7 +123,7 @@ def _choices(random: np.random.Generator, rows: int) -> list[Array]:
 
 
 def _fitted(impacts: Impacts, law: Law, fold_of: npt.NDArray[np.int64], choices: Sequence[Array]) -> Fitted:
-    numbers = _least(impacts, law)
+    numbers = least(impacts, law)
     folds = int(fold_of.max()) + 1
     training = np.array([fold_of != fold for fold in range(folds)], dtype=np.float64)
     of_choices, of_folds = _of_others(impacts, law, numbers, choices, training)
@@ -139,8 +139,13 @@ def _fitted(impacts: Impacts, law: Law, fold_of: npt.NDArray[np.int64], choices:
     return Fitted(law, numbers, intervals, errors, unseen)
 
 
-def _least(impacts: Impacts, law: Law) -> tuple[float, ...]:
-    """The numbers of the least mean error over all rows: the best cell of ever finer grids, then a Newton step."""
+def least(impacts: Impacts, law: Law) -> tuple[float, ...]:
+    """The numbers of a law with the least mean error [1]: the best cell of ever finer grids, then a Newton step.
+
+    Args:
+        impacts: measured.
+        law: which.
+    """
     axes = [np.linspace(low, high, cells) for (low, high), cells in zip(BOUNDS, _COARSE, strict=True)][: law.numbers]
     for _ in range(_TIMES):
         means = _means(impacts, law, axes)

@@ -40,8 +40,8 @@ def impacts(
     radius_of_gyration. Others are left alone; lines that begin with # are comments.
 
     The laws: Newton, Poisson, Stronge (the engine has these), Wang-Mason, and Newton with a restitution along the
-    tangent. Of each the numbers of least mean error, with 95 % intervals by bootstrap over the rows; errors as shares of
-    the velocity after the impact, in the norm of the kinetic energy; the same on rows that the fit has not seen
+    tangent. Of each the numbers of least mean error, with 95 % intervals by bootstrap over the rows; errors as shares
+    of the velocity after the impact, in the norm of the kinetic energy; the same on rows that the fit has not seen
     (cross-validation). Two bounds: the error with numbers of each impact's own, and that of the best impulse at the
     contact, below which no rigid law can be. The last line puts law and numbers into a model. See
     docs/how-to/identify-impacts.md.
