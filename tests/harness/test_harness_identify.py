@@ -132,7 +132,7 @@ def test_the_command_gives_json(tmp_path: Path) -> None:
     short.write_text("\n".join(lines[:31]), encoding="utf-8")
     done = CliRunner().invoke(main, ["identify", "impacts", str(short), "--folds", "3", "--json"])
     assert done.exit_code == 0, done.output
-    given = json.loads(done.output)
+    given = json.loads(done.output, parse_constant=pytest.fail)
     assert given["impacts"] == 30
     assert [law["law"] for law in given["laws"]] == [*TARGETS, "newton_of_each_impact", "best_impulse"]
     assert "with_impacts(" in given["line"]

@@ -44,7 +44,8 @@ def identify_impacts(file: Path, folds: int, seed: int, unflagged: bool, output:
     with show_progress("Fitting the laws ...") as progress:
         found = identify(impacts, folds, seed, lambda label, done: progress(f"Fitting {label}", done))
     table = table_of(found)
-    give({"impacts": len(impacts), "laws": table.to_dict("records"), "line": model_line(found.chosen)})
+    laws = [row.dropna().to_dict() for _, row in table.iterrows()]  # JSON has no nan
+    give({"impacts": len(impacts), "laws": laws, "line": model_line(found.chosen)})
     _show(found, len(impacts), file)
     if output is not None:
         write_text(output, lambda target: table.to_csv(target, index=False))
