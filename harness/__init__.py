@@ -11,7 +11,7 @@ From the ground up; each knows only those above it in this list:
 - `errors`: what can go wrong
 - `fmu`: one FMU: its description, units, values, instances, here or in processes of their own
 - `toml_file`: files that people write
-- `analysis`: what a run means: impacts, stress, damage, compliance
+- `analysis`: what a run means: impacts, stress, damage, compliance; laws of impacts fitted to measured ones
 - `run`: one run: time, inputs, recording, verdicts, files
 - `machine`: several FMUs as one machine; `designs`: many designs of one mechanism
 - `report`: reports and figures

@@ -1,1 +1,1 @@
-"""Post-processing of a run: its impacts, stress and fatigue damage that they leave, and compliance of links."""
+"""What a run means: its impacts, stress and fatigue that they leave, compliance of links; and fits of impact laws."""

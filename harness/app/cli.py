@@ -9,7 +9,7 @@ import typer
 
 from build_fmu import build
 
-from . import designs_cli, file_cli, machine_cli, papers_cli
+from . import designs_cli, file_cli, identify_cli, machine_cli, papers_cli
 from .cli_group import Group
 from .options import file_option, settings_option
 
@@ -265,6 +265,7 @@ def validate(fmu: FmuPath, in_process: InProcess = False) -> None:
         raise typer.Exit(validate_fmu(fmu, in_process))
 
 
+main.add_typer(identify_cli.identify, name="identify")
 main.add_typer(papers_cli.study, name="study")
 main.add_typer(machine_cli.machine, name="machine")
 

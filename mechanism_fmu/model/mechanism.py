@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from itertools import chain
 from types import SimpleNamespace
-from typing import Literal
+from typing import Any, Literal
 
 from .. import codes
 from .body import Body
 from .contacts import Contact
 from .curves import Curve
+from .errors import MechanismError
 from .forces import Force, ForceElement, Marker, Oscillation
 from .functions import Number, is_plain
 from .joints import Joint
@@ -148,6 +150,43 @@ class Mechanism:
         """Names of the contacts, joints and force elements that have friction, for these values or for others."""
         parts = (*self.contacts, *self.joints, *self.elements)
         return tuple(part.name for part in parts if may_rub(part) or part.name in self.rubs)
+
+    def with_impacts(
+        self,
+        law: Literal["newton", "poisson", "stronge"],
+        restitution: Number,
+        friction: Number,
+        contacts: Sequence[str] = (),
+    ) -> Mechanism:
+        """The mechanism with one law of impacts and one pair of numbers, as `mechanism-fmu identify impacts` prints it.
+
+        Args:
+            law: of impacts, for all contacts.
+            restitution: e of the contacts [1], 0..1.
+            friction: coefficient of their Coulomb friction [1], >= 0; what they have for sticking goes.
+            contacts: names of those that take these numbers; none: all that can strike and rub.
+
+        Raises:
+            MechanismError: there is no such contact, or it cannot have both numbers.
+        """
+        able = [part.name for part in self.contacts if _strikes_and_rubs(part)]
+        wrong = [name for name in contacts if name not in able]
+        if wrong or not able:
+            what = f"Contact {wrong[0]!r} is none that can" if wrong else "No contact of the mechanism can"
+            raise MechanismError(f"{what} have restitution and friction; those that can: {', '.join(able) or 'none'}.")
+        chosen = set(contacts or able)
+        # of an outline contact, the first of its places makes the others anew
+        numbers: dict[str, Any] = {"restitution": restitution, "friction": friction, "friction_static": None}
+        parts = tuple(replace(part, **numbers) if part.name in chosen else part for part in self.contacts)
+        return replace(self, contacts=parts, impact_law=law)
+
+
+def _strikes_and_rubs(part: Contact) -> bool:
+    """Whether a contact can have restitution and friction: it has both, comes off, and no function switches it."""
+    own = {field.name for field in fields(part)}
+    comes_off = getattr(part, "unilateral", True)
+    holds = is_plain(comes_off) and not comes_off
+    return {"restitution", "friction"} <= own and not holds and getattr(part, "closed_while", None) is None
 
 
 def can_rub(part: Contact | Joint | ForceElement) -> bool:

@@ -40,6 +40,8 @@ COMMANDS = [
     [],
     ["build"],
     ["demo"],
+    ["identify"],
+    ["identify", "impacts"],
     ["ked"],
     ["machine"],
     ["machine", "check"],
