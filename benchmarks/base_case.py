@@ -9,7 +9,7 @@ the wheel at the end are right to 1e-8 (s, rad/s); what is right, the engine say
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from statistics import median
 
 from mechanism_fmu.simulation import Simulation
@@ -52,11 +52,29 @@ def plain(tolerance: float) -> tuple[float, float]:
     return found.impacts[0].time, float(found.at(STOP)[1][WHEEL_ANGLE])
 
 
-def main() -> None:
-    """Measure, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=9, help="in which the two take turns")
-    rounds = parser.parse_args().rounds
+@dataclass(frozen=True)
+class Measured:
+    """Tolerances at which the two are right to `ACCURACY`, times of the rounds [s], and errors at the end."""
+
+    slow_at: float
+    fast_at: float
+    slow: tuple[float, ...]
+    fast: tuple[float, ...]
+    slow_error: float
+    fast_error: float
+
+    @property
+    def ratio(self) -> float:
+        """Time of the engine over that of the plain program."""
+        return median(self.fast) / median(self.slow)
+
+
+def measure(rounds: int) -> Measured:
+    """Find the tolerances, and time both.
+
+    Args:
+        rounds: in which the two take turns.
+    """
     exact = Engine(_EXACT).run()
 
     def error(found: tuple[float, float]) -> float:
@@ -66,9 +84,17 @@ def main() -> None:
     slow_at = next(tolerance for tolerance in _TOLERANCES if error(plain(tolerance)) <= ACCURACY)
     engine = Engine(fast_at)
     slow, fast = in_turns(lambda: batch(lambda: plain(slow_at), 1), lambda: batch(engine.run, 20), rounds)
-    print(f"solve_ivp (RK45) at {slow_at:.0e}: {1e3 * median(slow):.2f} ms, error {error(plain(slow_at)):.1e}")
-    print(f"the engine at {fast_at:.0e}: {1e3 * median(fast):.3f} ms, error {error(engine.run()):.1e}")
-    print(f"{median(fast) / median(slow):.4f} of its time")
+    return Measured(slow_at, fast_at, slow, fast, error(plain(slow_at)), error(engine.run()))
+
+
+def main() -> None:
+    """Measure, and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=9, help="in which the two take turns")
+    found = measure(parser.parse_args().rounds)
+    print(f"solve_ivp (RK45) at {found.slow_at:.0e}: {1e3 * median(found.slow):.2f} ms, error {found.slow_error:.1e}")
+    print(f"the engine at {found.fast_at:.0e}: {1e3 * median(found.fast):.3f} ms, error {found.fast_error:.1e}")
+    print(f"{found.ratio:.4f} of its time")
 
 
 if __name__ == "__main__":
