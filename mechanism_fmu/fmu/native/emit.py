@@ -89,7 +89,7 @@ def object_file(bitcode: bytes, target: Target) -> bytes:
             symbol.linkage = "internal"
     _say_how(module)
     # The first, cheap pass shows which calls never report an error; the second leaves nothing of reporting them. With
-    # LLVM's own threshold of 225 in the first, and nothing said of any function, it is 10 % longer, and 2 % slower.
+    # LLVM's own threshold of 225 in the first, and nothing said of any function, it is 10 % longer, and no faster.
     for level in (1, 3):
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
         tuning.loop_interleaving = False  # the engine's loops go over a handful of rows
