@@ -110,24 +110,31 @@ class Signals:
     def derivatives(self) -> list[float]:
         """Slopes of now [unit/s]: rates that are outputs, else what the component returns, else from earlier values."""
         slopes = self.differences()
-        for k, rate in self._followed:
-            slopes[k] = self._scales[k] * self.values[rate]
+        self._known = self.rates(self.values)
+        for k, rate in self._known.items():
+            slopes[k] = rate
+        self._bend(slopes)
+        return slopes
+
+    def rates(self, values: Sequence[float]) -> dict[int, float]:
+        """Derivatives of now [unit/s], by the output's place: those that are outputs, or that the component returns.
+
+        Args:
+            values: of all outputs now, as of `peek`.
+        """
+        found = {k: self._scales[k] * values[rate] for k, rate in self._followed}
         if self._rates:
             self._rate.read()
-            for k, slope in zip(self._rates, self._rate.values, strict=True):
-                slopes[k] = self._scales[k] * slope
+            for k, rate in zip(self._rates, self._rate.values, strict=True):
+                found[k] = self._scales[k] * rate
         if self._returned is None:
-            known = {*self._rates, *(k for k, _ in self._followed)}
             self._returned = [
-                k for k in range(len(self.names)) if k not in known and self._returns_slope(self.names[k])
+                k for k in range(len(self.names)) if k not in found and self._returns_slope(self.names[k])
             ]
             self._slope = self._component.reals([self.names[k] for k in self._returned])
         if self._returned and self._slope.read_slopes():
-            for k, slope in zip(self._returned, self._slope.values, strict=True):
-                slopes[k] = slope
-        self._known = {k: slopes[k] for k in (*(k for k, _ in self._followed), *self._rates, *self._returned)}
-        self._bend(slopes)
-        return slopes
+            found |= zip(self._returned, self._slope.values, strict=True)
+        return found
 
     def _bend(self, slopes: list[float]) -> None:
         """Find `bends`, from slopes now and before, or from three values, which mend the slope as well."""
