@@ -102,7 +102,9 @@ def best(results: Sequence[Result]) -> str:
     for case, one in sorted(pairs, key=lambda pair: not pair[1].is_ahead):
         peer, ours = one.peer, one.ours
         cells = [case.title, f"{peer.code}, {peer.method}", peer.setting, _ms(peer), _error(peer)]
-        cells += ["none", "", ""] if ours is None else [ours.setting.removeprefix("tolerance "), _ms(ours), _error(ours)]
+        cells += (
+            ["none", "", ""] if ours is None else [ours.setting.removeprefix("tolerance "), _ms(ours), _error(ours)]
+        )
         rows.append(f"| {' | '.join(cells)} | {f'**{one.ratio:.2g}**' if one.is_ahead else f'{one.ratio:.3g}'} |")
     return "\n".join(rows)
 

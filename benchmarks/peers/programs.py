@@ -38,7 +38,7 @@ def is_here(code: str) -> bool:
 
 
 def engine(mechanism: Mechanism, read: Callable[[Simulation], Vector], stop: float) -> Program:
-    """This engine at `TOLERANCES`.
+    """The engine of this project at `TOLERANCES`.
 
     Args:
         mechanism: what moves, with any settings.
