@@ -14,7 +14,7 @@ from harness.report.static import svg_text
 from mechanism_fmu.processors import processors
 
 from ..world.pages import FOLDER
-from .case import OURS, Case, Point, Verdict, overtaken, verdicts
+from .case import EXACT, OURS, Case, Point, Verdict, overtaken, verdicts
 from .programs import PEERS, Peer
 
 PAGE, FIGURE = FOLDER / "peers.md", FOLDER / "peers.svg"
@@ -59,17 +59,19 @@ def page(results: Sequence[Result], peers: Sequence[Peer], today: date) -> str:
         "## Each peer at its own best accuracy",
         best(results),
         "Ratio: the peer's time over ours, at the fastest of our tolerances that is at least as accurate; above 1 this "
-        "engine is ahead. Errors below the floor of the reference, which a case names, are not told apart.",
+        "engine is ahead. Errors below the floor of the reference, which a case names, are not told apart: it is at "
+        "least three times what scipy's program, at its tightest, differs from it.",
         "![](peers.svg)",
         "## What a peer cannot state",
         unstated(results),
         *(part for result in results for part in _section(result)),
         "## What is measured",
-        "Error: the largest difference of all compared quantities from this engine at a tolerance of 1e-12, which "
-        "scipy's program confirms in every case as far as its own error, in the tables. Time: of the processor, "
-        "for the run alone, without making the model; the least of three. MuJoCo and Exudyn make all steps in one "
-        "call of theirs; pymunk is called for each step from Python, as it is used; scipy's equations are written with "
-        "numpy.",
+        f"Error: the largest difference of all compared quantities from this engine at a tolerance of {EXACT:.0e}; how "
+        "far scipy's program, which shares nothing with it, agrees stands in the tables. Time: of the processor, for "
+        "the run alone, without making the model; the least of three. MuJoCo and Exudyn make all steps in one call of "
+        "theirs; pymunk is called for each step from Python, as it is used; scipy's equations are written with numpy. "
+        "The best accuracy of a peer is the best of the settings in its table; with the largest numbers of steps "
+        "there, errors of the first order still fall, and times rise as fast.",
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -87,9 +89,20 @@ def ahead(results: Sequence[Result]) -> str:
         for one in result.overtaken
         if not (one.is_ahead and one in result.verdicts)
     ]
-    if not coarse:
-        return first + "\n\nAt another setting: no peer either."
-    return first + "\n\nAt a coarser setting, the most accurate one where it is ahead:\n\n" + "\n".join(coarse)
+    ended = [
+        f"- {result.case.title}: at {point.setting}."
+        for result in results
+        for point in result.points
+        if point.code == OURS and not math.isfinite(point.error)
+    ]
+    paragraphs = [first]
+    if coarse:
+        paragraphs += ["At a coarser setting, the most accurate one where it is ahead:", "\n".join(coarse)]
+    else:
+        paragraphs.append("At another setting: no peer either.")
+    if ended:
+        paragraphs += ["Where this engine ends with a message in place of a result:", "\n".join(ended)]
+    return "\n\n".join(paragraphs)
 
 
 def best(results: Sequence[Result]) -> str:
@@ -168,4 +181,4 @@ def _ms(point: Point) -> str:
 
 
 def _error(point: Point) -> str:
-    return f"{point.error:.1e}"
+    return f"{point.error:.1e}" if math.isfinite(point.error) else "ends with a message"

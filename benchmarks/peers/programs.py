@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from mechanism_fmu.model import Mechanism
-from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.simulation import Simulation, SimulationError
 
-from .case import OURS, TOLERANCES, Program, Run, Vector
+from .case import FAILED, OURS, TOLERANCES, Program, Run, Vector
 
 #: Codes and what pip calls them.
 PEERS = {"MuJoCo": "mujoco", "scipy": "scipy", "pymunk": "pymunk", "Exudyn": "exudyn"}
@@ -51,7 +51,10 @@ def engine(mechanism: Mechanism, read: Callable[[Simulation], Vector], stop: flo
         simulation = Simulation(replace(mechanism, settings=settings))
 
         def run() -> Vector:
-            simulation.advance(stop)
+            try:
+                simulation.advance(stop)
+            except SimulationError:
+                return FAILED
             return read(simulation)
 
         return run

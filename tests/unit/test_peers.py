@@ -15,7 +15,7 @@ from benchmarks.peers.cases import CASES
 from benchmarks.peers.pages import FIGURE, PAGE, Result, absent, ahead, page, picture
 from benchmarks.peers.programs import PEERS, Peer, is_here, peers
 
-#: Of each program of a case: two settings, and how much nearer the second one is.
+#: Each program of a case that is not the engine.
 _WAYS = [
     pytest.param(name, program, id=f"{name}-{program.code}-{program.method.split()[0]}")
     for name, case in CASES.items()
@@ -45,11 +45,17 @@ def test_a_peer_states_the_same_problem(name: str, program: Program) -> None:
     """Its error falls from a coarse to a finer setting, and is small there."""
     if not is_here(program.code):
         pytest.skip(f"{program.code} is not installed")
-    # what is coarse is not the coarsest where that is too slow or too good already
     coarse, fine = program.settings[0], program.settings[2]
     off = [error(program.prepare(setting)(), exact(name)) for setting in (coarse, fine)]
     assert off[1] < 0.02
     assert off[1] < max(0.7 * off[0], 1e-12)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_floor_is_three_times_what_two_programs_differ(name: str) -> None:
+    case = CASES[name]
+    (scipy,) = (program for program in case.programs if program.code == "scipy")
+    assert error(scipy.prepare(scipy.settings[-1])(), exact(name)) <= case.floor / 3
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -90,6 +96,13 @@ def test_where_a_peer_is_ahead_is_said_first() -> None:
     assert "Exudyn is not installed" in text
     assert "At a coarser setting" in ahead([result])
     assert picture([result]).startswith("<svg")
+
+
+def test_a_run_of_the_engine_that_ends_with_a_message_is_said() -> None:
+    case = next(iter(CASES.values()))
+    told = ahead([Result(case, (point(OURS, 1.0, np.inf), point(OURS, 2.0, 1e-9), point("scipy", 3.0, 1e-9)))])
+    assert f"- {case.title}: at tolerance 1e-04." in told.partition("ends with a message")[2]
+    assert "no peer either" in told
 
 
 def test_a_run_without_a_number_is_infinitely_off() -> None:

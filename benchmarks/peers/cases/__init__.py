@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from ..case import Case
-from . import block, chain, ratchet
+from . import block, chain, clearance, ratchet
 
-CASES: dict[str, Case] = {module.CASE.name: module.CASE for module in (ratchet, block, chain)}
+CASES: dict[str, Case] = {module.CASE.name: module.CASE for module in (ratchet, block, clearance, chain)}
