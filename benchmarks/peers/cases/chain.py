@@ -204,9 +204,9 @@ CASE = Case(
         Program("MuJoCo", "hinges, RK4", (50, 100, 200, 500, 1000, 2000, 4000, 8000, 16000), mujoco, "steps"),
         Program("scipy", "angles, DOP853", (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13), scipy),
         Program("pymunk", "pivots, semi-implicit Euler", (250, 1000, 4000, 16000), pymunk, "steps"),
-        Program("Exudyn", "kinematic tree, RK4", (50, 100, 200, 400, 800, 1600), exudyn_tree, "steps"),
+        Program("Exudyn", "tree of hinges, RK4", (50, 100, 200, 400, 800, 1600), exudyn_tree, "steps"),
         Program(
-            "Exudyn", "revolute joints, generalised alpha", (50, 100, 200, 400, 800, 1600, 3200), exudyn_joints, "steps"
+            "Exudyn", "joints, generalised alpha", (50, 100, 200, 400, 800, 1600, 3200), exudyn_joints, "steps"
         ),
     ),
     floor=1e-14,
