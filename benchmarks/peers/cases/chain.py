@@ -205,9 +205,7 @@ CASE = Case(
         Program("scipy", "angles, DOP853", (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13), scipy),
         Program("pymunk", "pivots, semi-implicit Euler", (250, 1000, 4000, 16000), pymunk, "steps"),
         Program("Exudyn", "tree of hinges, RK4", (50, 100, 200, 400, 800, 1600), exudyn_tree, "steps"),
-        Program(
-            "Exudyn", "joints, generalised alpha", (50, 100, 200, 400, 800, 1600, 3200), exudyn_joints, "steps"
-        ),
+        Program("Exudyn", "joints, generalised alpha", (50, 100, 200, 400, 800, 1600, 3200), exudyn_joints, "steps"),
     ),
     floor=1e-14,
     cannot={},
