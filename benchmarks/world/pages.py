@@ -19,6 +19,8 @@ _ROOT = FOLDER.parents[1]
 _BLUE = "#1f6feb"
 #: Deviations below are drawn as this.
 _LEAST = 1e-16
+#: Of a page that `benchmarks.peers` writes.
+_BESIDE = "Error against time of MuJoCo, scipy, pymunk and Exudyn as well: [beside other programs](peers.md)."
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,8 @@ def index(results: Sequence[Result], today: date) -> str:
         "Deviations are relative to the known value, absolute where that is 0. A value that nobody has "
         "printed is not called "
         "published: it comes from a closed form, or from an equation of the one coordinate, solved by scipy to 1e-13.",
-        f"```{{toctree}}\n:hidden:\n\n{names}\n```",
+        _BESIDE,
+        f"```{{toctree}}\n:hidden:\n\n{names}\npeers\n```",
     ]
     return "\n\n".join(parts) + "\n"
 
