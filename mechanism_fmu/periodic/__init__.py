@@ -1,0 +1,12 @@
+"""Periodic motions with impacts: found by shooting, with Floquet multipliers.
+
+The harness may import it, as it may `batch`: the state of a mechanism, which shooting changes, is not among the
+variables of an FMU.
+"""
+
+from ..model import MechanismError as MechanismError
+from ..moving import SimulationError as SimulationError
+from .cycle import Cycle as Cycle, find_cycle as find_cycle
+from .passage import CycleError as CycleError, Passage as Passage, Section as Section
+from .slopes import GrazingError as GrazingError, Slopes as Slopes
+from .start import Problem as Problem, Unknown as Unknown, problem_of as problem_of
