@@ -97,6 +97,8 @@ def find_cycle(
         SimulationError: the motion cannot go on.
     """
     problem = _settled(problem, end, settle).with_state()
+    if isinstance(end, Section) and problem.state and any(unknown.of_body for unknown in problem.unknowns):
+        end = end.after(settle)
     if isinstance(end, Section) and end.output.rpartition(".")[2] in COORDINATES + RATES:
         problem = replace(problem, held=(end.output,))
     x = problem.guess()
@@ -222,9 +224,9 @@ def _again(problem: Problem, x: Array, first: Passage, second: Passage) -> float
     ]
     raise CycleError(
         f"The unknowns return, but the next cycle is another one: it differs by {max(size, late):.2g}, where "
-        f"{_AGAIN:g} is allowed. Something that is not among the unknowns does not return. What has changed in the first cycle: "
-        f"{', '.join(others) or 'no coordinate'}. Name it as unknown (with --advance if it goes on by itself), or take "
-        "more --passages."
+        f"{_AGAIN:g} is allowed. Something that is not among the unknowns does not return. What has changed in the "
+        f"first cycle: {', '.join(others) or 'no coordinate'}. Name it as unknown (with --advance if it goes on by "
+        "itself), or take more --passages."
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from .. import codes
@@ -36,6 +36,7 @@ class Section:
         direction: which way.
         passages: how many such there are in a cycle.
         longest: a cycle that takes longer is none [s].
+        advance: by how much the value grows with each passage [its unit], as that of a shaft that turns.
     """
 
     output: str
@@ -43,6 +44,11 @@ class Section:
     direction: Direction = "rising"
     passages: int = 1
     longest: float = 10.0
+    advance: float = 0.0
+
+    def after(self, cycles: int) -> Section:
+        """The section where so many cycles have gone by."""
+        return replace(self, value=self.value + cycles * self.passages * self.advance)
 
 
 @dataclass(frozen=True)
@@ -120,25 +126,28 @@ def _by_period(simulation: Simulation, period: float, cycles: int) -> tuple[Pass
 def _by_section(begin: Callable[[], Simulation], section: Section, cycles: int) -> tuple[Passage, ...]:
     sign = 1.0 if section.direction == "rising" else -1.0
 
-    def height(simulation: Simulation) -> float:
-        return sign * (simulation.read()[section.output] - section.value)
-
     records, count = _Records(begin()), 0
+
+    def height(simulation: Simulation) -> float:
+        value = section.value + (count + 1) * section.advance
+        return sign * (simulation.read()[section.output] - value)
+
     found: list[Passage] = []
     simulation, trial = records.simulation, begin()
     limit = cycles * section.longest
-    before, low = 0.0, math.inf  # the motion begins on the section: its first step does not count
+    before, low = 0.0, -1.0  # the motion begins on the section: its first step does not count
     while len(found) < cycles:
         if simulation.time >= limit:
             raise CycleError(_not_passed(section, limit, count))
         records.go_on(limit)
         after, high = simulation.time, height(simulation)
-        if low < 0.0 <= high:
+        if low < 0.0 <= high and before > 0.0:
             is_passage = _instant(trial, height, (before, low), (after, high))
             if is_passage:
                 count += 1
                 if count % section.passages == 0:
                     found.append(records.passage(trial))
+                high = -math.inf if section.advance else high
         before, low = after, high
     return tuple(found)
 

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from ..model import Body, Mechanism, MechanismError, Model, Output
 from ..model.quantities import quantity
 from ..simulation import Simulation
+from .passage import Direction, Section
 
 Array = npt.NDArray[np.float64]
 
@@ -142,6 +143,7 @@ def problem_of(
     settings: Sequence[str] = (),
     advances: Sequence[str] = (),
     tolerance: float = 1e-11,
+    section: str = "",
 ) -> Problem:
     """A problem as it is written on a command line.
 
@@ -152,6 +154,7 @@ def problem_of(
         settings: "name=value", of parameters and inputs, with or without unit.
         advances: "name=value", of unknowns that grow each cycle.
         tolerance: relative, of the integration [1].
+        section: output of the section, which may advance, too.
 
     Raises:
         MechanismError: a name, value or unit that cannot be; the message says what can.
@@ -170,11 +173,51 @@ def problem_of(
     found = [_unknown(text, parameters, outputs) for text in wanted]
     for name, text in (_pair(entry, "--advance") for entry in advances):
         places = [k for k, u in enumerate(found) if name in (u.name, u.output)]
+        if not places and name == section:
+            continue
         if not places:
             raise MechanismError(f"{name} advances, but is not unknown; unknown: {', '.join(u.name for u in found)}.")
         unknown = found[places[0]]
-        found[places[0]] = replace(unknown, advance=float(quantity(text, unknown.unit, name)))
+        found[places[0]] = replace(unknown, advance=_number(text, unknown.unit, name))
     return replace(bare, unknowns=tuple(found))
+
+
+def section_of(
+    problem: Problem,
+    text: str,
+    direction: Direction,
+    passages: int = 1,
+    longest: float | None = None,
+    advances: Sequence[str] = (),
+) -> Section:
+    """A section as it is written on a command line.
+
+    Args:
+        problem: whose outputs it may name.
+        text: "output", "output=value", with or without unit.
+        direction: "rising" or "falling".
+        passages: of a cycle.
+        longest: a cycle that takes longer is none [s]; None: ten times the stop time of the model.
+        advances: as of `problem_of`.
+
+    Raises:
+        MechanismError: there is no such output, or the value is none of it.
+    """
+    name, _, value = text.partition("=")
+    units = {output.name: output.unit for output in _built(problem, {}).outputs}
+    if name not in units:
+        raise MechanismError(f"There is no output {name!r} for a section; there are: {', '.join(units)}.")
+    advance = dict(_pair(entry, "--advance") for entry in advances).get(name, "0")
+    number, step = (_number(each, units[name], name) for each in (value or "0", advance))
+    return Section(name, number, direction, passages, longest or 10.0 * problem.model.stop_time, step)
+
+
+def _number(text: str, unit: str, name: str) -> float:
+    """A number in an SI unit, which may be left out."""
+    try:
+        return float(text)
+    except ValueError:
+        return float(quantity(text, unit, name))
 
 
 def _unknown(text: str, parameters: Mapping[str, str], outputs: Mapping[str, str]) -> Unknown:
@@ -206,13 +249,15 @@ def _unknown(text: str, parameters: Mapping[str, str], outputs: Mapping[str, str
 
 def _settings(model: Model, settings: Sequence[str]) -> tuple[dict[str, float], dict[str, float]]:
     """Parameters and inputs that are set, as numbers."""
+    units = {p.name: p.unit for p in model.parameters}
     ports = {port.name: port for port in model.build(model.values()).inputs}
     values, inputs = {}, {}
     for name, text in (_pair(entry, "--set") for entry in settings):
         if name in ports:
-            inputs[name] = float(quantity(text, ports[name].unit, name))
+            inputs[name] = _number(text, ports[name].unit, name)
         else:
-            values[name] = float(getattr(model.values(**{name: text}), name))
+            values[name] = _number(text, units.get(name, "1"), name)
+    model.values(**values)
     return values, inputs
 
 
