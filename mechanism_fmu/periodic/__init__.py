@@ -10,4 +10,5 @@ from ..moving import SimulationError as SimulationError
 from .cycle import Cycle as Cycle, find_cycle as find_cycle
 from .passage import CycleError as CycleError, Direction as Direction, Passage as Passage, Section as Section
 from .slopes import GrazingError as GrazingError, Slopes as Slopes
-from .start import Problem as Problem, Unknown as Unknown, problem_of as problem_of, section_of as section_of
+from .start import Problem as Problem, Unknown as Unknown
+from .written import problem_of as problem_of, section_of as section_of

@@ -101,6 +101,12 @@ def find_cycle(
         end = end.after(settle)
     if isinstance(end, Section) and end.output.rpartition(".")[2] in COORDINATES + RATES:
         problem = replace(problem, held=(end.output,))
+    if problem.touching:
+        raise CycleError(
+            f"Closed at the beginning of the cycle: {', '.join(problem.touching)}. Where a contact of outlines is "
+            "closed, its bodies cannot be moved one by one: one side would be inside. Begin the cycle where none is: "
+            "with another --section or value of it, or another phase of the drive."
+        )
     x = problem.guess()
     _require_on_section(problem, end, x)
 
