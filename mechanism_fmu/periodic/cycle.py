@@ -25,9 +25,13 @@ from .start import COORDINATES, RATES, Array, Problem
 #: The end is the beginning within this, over the scales of the unknowns [1]; what Newton's method can no longer mend,
 #: within the second.
 _CLOSED, _NEARLY = 1e-10, 1e-7
+#: Where Newton's method comes no nearer than this, the same, whether it grazes is asked first.
+_NEAR_GRAZING = 1e-4
 _ITERATIONS, _HALVINGS = 30, 12
 #: The next cycle is the same within this, over the scales of the unknowns [1].
 _AGAIN = 1e-5
+#: Errors of the integration over its tolerance, and those of multipliers by them [1].
+_OF_INTEGRATION = 1e2
 #: A start that is farther from the section, over the scale of rates and coordinates [1], is not on it.
 _ON_SECTION = 1e-6
 
@@ -65,15 +69,20 @@ class Cycle:
     iterations: int
 
     @property
+    def margins(self) -> Array:
+        """How far each multiplier may be off, shape (unknowns,): its error, and what the integration adds."""
+        return np.maximum(self.errors, _OF_INTEGRATION * self.problem.tolerance)
+
+    @property
     def stable(self) -> bool:
-        """Whether all multipliers are within the unit circle, by more than their error."""
-        return bool(np.all(np.abs(self.multipliers) + self.errors < 1.0))
+        """Whether all multipliers are within the unit circle, by more than their margin."""
+        return bool(np.all(np.abs(self.multipliers) + self.margins < 1.0))
 
     @property
     def undecided(self) -> bool:
         """Whether the largest multiplier is on the unit circle as far as it is known."""
         sizes = np.abs(self.multipliers)
-        return not self.stable and bool(np.all(sizes - self.errors <= 1.0))
+        return not self.stable and bool(np.all(sizes - self.margins <= 1.0))
 
 
 def find_cycle(
@@ -201,6 +210,8 @@ def _newton(
         else:
             if size <= _NEARLY:
                 return x, iteration, size
+            if size <= _NEAR_GRAZING:  # impacts that come and go keep Newton's method from its end
+                slopes(problem, cycle, x, cycle(x)[1].sequence, 30.0 * size)
             raise CycleError(_not_found(problem, x, size))
     raise CycleError(_not_found(problem, x, float(np.max(np.abs(r) / problem.scales(x)))))
 

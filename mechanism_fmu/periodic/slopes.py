@@ -45,7 +45,7 @@ class Slopes:
     errors: Array
 
 
-def slopes(problem: Problem, cycle: Map, x: Array, sequence: tuple[str, ...]) -> Slopes:
+def slopes(problem: Problem, cycle: Map, x: Array, sequence: tuple[str, ...], least: float = _LEAST) -> Slopes:
     """The derivative by differences on both sides, extrapolated.
 
     Args:
@@ -53,13 +53,14 @@ def slopes(problem: Problem, cycle: Map, x: Array, sequence: tuple[str, ...]) ->
         cycle: the map.
         x: where, shape (unknowns,).
         sequence: of the events there.
+        least: step over the scale of the unknown [1], within which events must keep their order.
 
     Raises:
         GrazingError: the order of events changes within the least step.
 
     Source: C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
     """
-    columns = [_column(problem, cycle, x, k, sequence) for k in range(len(x))]
+    columns = [_column(problem, cycle, x, k, sequence, max(least, _LEAST)) for k in range(len(x))]
     return Slopes(np.column_stack([c for c, _ in columns]), np.column_stack([e for _, e in columns]))
 
 
@@ -79,13 +80,15 @@ def rough_slopes(problem: Problem, cycle: Map, x: Array) -> Array:
     return np.column_stack(columns)
 
 
-def _column(problem: Problem, cycle: Map, x: Array, k: int, sequence: tuple[str, ...]) -> tuple[Array, Array]:
+def _column(
+    problem: Problem, cycle: Map, x: Array, k: int, sequence: tuple[str, ...], least: float
+) -> tuple[Array, Array]:
     """The derivative by one unknown, and its error; each shape (unknowns,)."""
     scale = float(problem.scales(x)[k])
     step, change = _FIRST * scale, ""
     rows: list[list[Array]] = []
     best, error = np.zeros_like(x), np.full_like(x, np.inf)
-    while len(rows) < _LEVELS and step > _LEAST * scale:
+    while len(rows) < _LEVELS and step > least * scale:
         ends = []
         for side in (1.0, -1.0):
             moved = x.copy()
