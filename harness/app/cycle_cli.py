@@ -60,7 +60,7 @@ def cycle(
     ] = 0,
     settings: Annotated[list[str] | None, settings_option("Value of a parameter or input. Once for each.")] = None,
     longest: Annotated[
-        str | None, quantity_option("A cycle up to a section that takes longer is none; ten stop times unless given.")
+        str | None, quantity_option("A cycle up to a section that takes longer is none; two stop times unless given.")
     ] = None,
     tolerance: Annotated[float, typer.Option(metavar="NUMBER", help="Relative, of the integration.")] = 1e-11,
     output: Annotated[Path | None, file_option("FILE.csv|FILE.json", "none", "What is found, to write.")] = None,

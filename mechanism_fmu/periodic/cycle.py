@@ -27,7 +27,7 @@ from .start import COORDINATES, RATES, Array, Problem
 _CLOSED, _NEARLY = 1e-10, 1e-7
 #: Where Newton's method comes no nearer than this, the same, whether it grazes is asked first.
 _NEAR_GRAZING = 1e-4
-_ITERATIONS, _HALVINGS = 30, 12
+_ITERATIONS, _HALVINGS = 20, 8
 #: The next cycle is the same within this, over the scales of the unknowns [1].
 _AGAIN = 1e-5
 #: Errors of the integration over its tolerance, and those of multipliers by them [1].

@@ -11,6 +11,7 @@ from .. import codes
 from ..moving import Event
 from ..simulation import Simulation
 
+#: Which way an output passes the value of a section.
 Direction = Literal["rising", "falling"]
 
 #: The instant of a passage is found to this share of itself [1]: rounding of the clock.

@@ -73,7 +73,7 @@ def section_of(
         text: "output", "output=value", with or without unit.
         direction: "rising" or "falling".
         passages: of a cycle.
-        longest: a cycle that takes longer is none [s]; None: ten times the stop time of the model.
+        longest: a cycle that takes longer is none [s]; None: twice the stop time of the model.
         advances: as of `problem_of`.
 
     Raises:
@@ -85,7 +85,7 @@ def section_of(
         raise MechanismError(f"There is no output {name!r} for a section; there are: {', '.join(units)}.")
     advance = dict(_pair(entry, "--advance") for entry in advances).get(name, "0")
     number, step = (_number(each, units[name], name) for each in (value or "0", advance))
-    return Section(name, number, direction, passages, longest or 10.0 * problem.model.stop_time, step)
+    return Section(name, number, direction, passages, longest or 2.0 * problem.model.stop_time, step)
 
 
 def _number(text: str, unit: str, name: str) -> float:

@@ -31,6 +31,8 @@ from ..output import give, note
 from ..terminal import console, show_note, show_progress, show_table
 
 _KINDS = (".csv", ".json")
+#: A multiplier below this [1] is no more than rounding and the tolerance of the integration leave of 0.
+_GONE = 1e-6
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ def as_data(found: Cycle) -> dict[str, Any]:
         "period": found.period,
         "start": {u.name: float(x) for u, x in zip(found.problem.unknowns, found.start, strict=True)},
         "multipliers": [{"real": m.real, "imaginary": m.imag, "size": abs(m)} for m in found.multipliers.tolist()],
-        "multiplier_errors": found.errors.tolist(),
+        "multiplier_errors": found.margins.tolist(),
         "stable": found.stable,
         "undecided": found.undecided,
         "residual": found.residual,
@@ -114,10 +116,9 @@ def verdict(found: Cycle) -> str:
         return f"Undecided: the largest multiplier has the size {largest:.9f}, which is 1 as far as it is known."
     if not found.stable:
         return f"Not stable: a small disturbance grows {largest:.6g} times each cycle."
-    if largest <= float(found.errors[0]) or largest == 0.0:
+    if largest < _GONE:
         return "Stable: a small disturbance is gone after one cycle."
-    tenth = math.log(0.1) / math.log(largest)
-    return f"Stable: of a small disturbance a tenth is left after {tenth:.2g} cycles."
+    return f"Stable: of a small disturbance {100.0 * largest:.3g} % is left after one cycle, in the long run."
 
 
 def _end(problem: Problem, asked: Asked) -> Section | float:
@@ -169,8 +170,8 @@ def _show(found: Cycle, name: str) -> None:
         headings = ["time [s]", "event", "closing speed [m/s or rad/s]", "closed then"]
         show_table("Its events", headings, events, numeric=(0, 2))
     numbers = [
-        [f"{m.real:+.9f}", f"{m.imag:+.9f}", f"{abs(m):.9f}", f"{error:.0e}"]
-        for m, error in zip(found.multipliers.tolist(), found.errors.tolist(), strict=True)
+        [*(_number(part, margin) for part in (m.real, m.imag, abs(m))), f"{margin:.0e}"]
+        for m, margin in zip(found.multipliers.tolist(), found.margins.tolist(), strict=True)
     ]
     show_table("Its multipliers", ["real", "imaginary", "size", "known within"], numbers, numeric=range(4))
     for moved, change in found.moved.items():
@@ -185,6 +186,10 @@ def _show(found: Cycle, name: str) -> None:
     said = verdict(found)
     note("notes", said)
     console.print(f"[bold]{escape(said)}[/]", soft_wrap=True)
+
+
+def _number(value: float, margin: float) -> str:
+    return "0" if abs(value) <= margin else f"{value:.9f}"
 
 
 def _require_writable(output: Path | None) -> None:
