@@ -48,7 +48,7 @@ class Cycle:
         errors: of these, estimated by the extrapolation, the same shape.
         matrix: derivative of the end by the beginning, shape (unknowns, unknowns) [their units].
         residual: largest difference of end and beginning, over the scales of the unknowns [1].
-        again: the same of the cycle after this one, without a new start.
+        again: the same of the cycle after this one, without a new start [1].
         events: of the cycle.
         closing: closing speeds of impacts, by time [m/s; rad/s].
         moved: coordinates that have advanced at the end, by name [m, rad].
@@ -97,13 +97,15 @@ def find_cycle(
         problem: model, numbers and unknowns.
         end: where a cycle ends: the section, or the period [s].
         settle: so many cycles go by before Newton's method begins: where the motion attracts, it then begins near.
-        report: is called with what is done, and which part of the whole (0..1).
+        report: is called with what is done, and which share of the whole (0..1).
 
     Raises:
         CycleError: none is found; the message says why and what to do.
         GrazingError: it has no multipliers.
         MechanismError: the mechanism cannot begin as the problem says.
         SimulationError: the motion cannot go on.
+
+    Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), sections 7.4 and 7.5.
     """
     problem = _settled(problem, end, settle).with_state()
     if isinstance(end, Section) and problem.state and any(unknown.of_body for unknown in problem.unknowns):

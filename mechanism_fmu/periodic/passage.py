@@ -38,6 +38,8 @@ class Section:
         passages: how many such there are in a cycle.
         longest: a cycle that takes longer is none [s].
         advance: by how much the value grows with each passage [its unit], as that of a shaft that turns.
+
+    Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), sections 7.4 and 7.5.
     """
 
     output: str
@@ -48,7 +50,11 @@ class Section:
     advance: float = 0.0
 
     def after(self, cycles: int) -> Section:
-        """The section where so many cycles have gone by."""
+        """The section where so many cycles have gone by.
+
+        Args:
+            cycles: number of them.
+        """
         return replace(self, value=self.value + cycles * self.passages * self.advance)
 
 
@@ -58,7 +64,7 @@ class Passage:
 
     Attributes:
         time: since the beginning of the first cycle [s].
-        values: all outputs, coordinates and rates, by name.
+        values: all outputs, coordinates and rates, by name [SI units].
         events: all so far.
         closing: closing speed of events that are impacts, by time [m/s; rad/s].
         closed: names of contacts that are closed.

@@ -35,6 +35,8 @@ class Unknown:
         output: what it is compared with at the end of the cycle: an output; of a coordinate, itself.
         unit: SI unit of both.
         advance: by how much it grows each cycle [unit], as the angle of a wheel does that is let go by a tooth.
+
+    Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), sections 7.4 and 7.5.
     """
 
     name: str
@@ -48,7 +50,11 @@ class Unknown:
         return "." in self.name
 
     def scale(self, value: float) -> float:
-        """What changes of it are measured by [unit]: its size, or what is small in its unit, if that is more."""
+        """What changes of it are measured by [unit]: its size, or what is small in its unit, if that is more.
+
+        Args:
+            value: of it [unit].
+        """
         return max(abs(value), _SMALL.get(self.unit, 1e-6))
 
 
@@ -59,13 +65,15 @@ class Problem:
     Attributes:
         model: the model.
         values: of parameters that differ from the default, by name [their unit].
-        inputs: likewise; held through all cycles.
+        inputs: likewise [their unit]; held through all cycles.
         unknowns: what is sought, at least one.
         held: coordinates that stay as they are at the beginning, "balance.angle" of a section.
         tolerance: relative, of the integration [1].
-        state: all outputs at the beginning, with coordinates and rates of all bodies, by name; None: as the model
-            starts, which `with_state` finds out.
+        state: all outputs at the beginning, with coordinates and rates of all bodies, by name [SI units]; None: as the
+            model starts, which `with_state` finds out.
         closed: contacts that are closed in that state.
+
+    Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), sections 7.4 and 7.5.
     """
 
     model: Model

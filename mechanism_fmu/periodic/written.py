@@ -34,6 +34,8 @@ def problem_of(
 
     Raises:
         MechanismError: a name, value or unit that cannot be; the message says what can.
+
+    Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), sections 7.4 and 7.5.
     """
     values, inputs = _settings(model, settings)
     bare = Problem(model, values, inputs, (), tolerance=tolerance)
@@ -78,6 +80,8 @@ def section_of(
 
     Raises:
         MechanismError: there is no such output, or the value is none of it.
+
+    Source: R. Seydel, Practical Bifurcation and Stability Analysis, 3rd ed. (2010), sections 7.4 and 7.5.
     """
     name, _, value = text.partition("=")
     units = {output.name: output.unit for output in finely(problem, {}).outputs}
