@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from mechanism_fmu.fmu.native.objects import Report
     from mechanism_fmu.fmu.native.web import WebModule
-    from mechanism_fmu.model import Mechanism
+    from mechanism_fmu.model import Mechanism, Model
 
     _Loaded = tuple[ModuleType, Path | None, Report, Callable[[str], None]]
 
@@ -278,6 +278,21 @@ def mechanism(model: str, **parameters: float) -> Mechanism:
         _messages().print(str(error), style="red", markup=False)
         raise typer.Exit(_USAGE_ERROR) from None
     return described
+
+
+def model_of(model: str) -> Model:
+    """A model itself, for those who analyse its motion without its FMU.
+
+    Args:
+        model: name of a ready-made model, or file of your own mechanism.
+
+    Raises:
+        typer.Exit: there is no such model, or its file has a mistake; the reason has been said.
+    """
+    _require(model)
+    with _loaded(model, "the mechanism", False) as (module, _, _, _):
+        found: Model = module.MODEL
+    return found
 
 
 def model_with_guid(name: str, guid: str, flavour: Flavour, fmi: int) -> str | None:

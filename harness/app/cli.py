@@ -9,7 +9,7 @@ import typer
 
 from build_fmu import build
 
-from . import designs_cli, file_cli, identify_cli, machine_cli, papers_cli
+from . import cycle_cli, designs_cli, file_cli, identify_cli, machine_cli, papers_cli
 from .cli_group import Group
 from .options import file_option, settings_option
 
@@ -246,6 +246,7 @@ main.command()(file_cli.page)
 main.command()(file_cli.watch)
 main.command()(designs_cli.sweep)
 main.command()(designs_cli.optimise)
+main.command()(cycle_cli.cycle)
 main.command()(papers_cli.ked)
 main.command()(papers_cli.reproduce)
 

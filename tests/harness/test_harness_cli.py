@@ -39,6 +39,7 @@ def fmi1_fmu(tmp_path: Path) -> Path:
 COMMANDS = [
     [],
     ["build"],
+    ["cycle"],
     ["demo"],
     ["identify"],
     ["identify", "impacts"],
