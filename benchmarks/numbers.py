@@ -11,6 +11,7 @@ import csv
 import importlib.util
 import os
 import platform
+import re
 import subprocess
 import sys
 import tempfile
@@ -28,6 +29,7 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
+import build_fmu as build_files
 import models
 from harness.page.page_file import page
 from mechanism_fmu.fmu.native.package import build_native_fmu
@@ -86,7 +88,7 @@ def sizes_and_starts(folder: Path) -> Iterator[Number]:
         fmu = build(place)
         yield Number("size", f"ratchet: {name}", "kB", fmu.stat().st_size / 1e3)
         yield Number("time", f"ratchet: build of a {name}", "s", time.perf_counter() - began)
-    html = page(model.MODEL).encode()
+    html = page(build_files.web("ratchet")).encode()
     yield Number("size", "ratchet: page that computes", "kB", len(html) / 1e3)
     for found in startup.compare(fmu, folder / "starts", folder / "cache"):
         yield Number("time", f"start of that FMU, {found.case}", "s", median(found.fast))
@@ -122,12 +124,16 @@ def tests() -> Iterator[Number]:
 def _collected(marks: str) -> Counter[str]:
     command = [sys.executable, "-m", "pytest", "--collect-only", "-q", "-p", "no:xdist", "-m", marks, "tests"]
     said = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False).stdout
-    return Counter(kind_of(line) for line in said.splitlines() if "::" in line)
+    files = (line.rpartition(": ") for line in said.splitlines() if re.fullmatch(r"tests/\S+\.py: \d+", line))
+    found: Counter[str] = Counter()
+    for file, _, count in files:
+        found[kind_of(file)] += int(count)
+    return found
 
 
-def kind_of(test: str) -> str:
-    """The folder below tests, or two where the first is `unit`, of a test's id."""
-    parts = Path(test.partition("::")[0]).parts[1:-1]
+def kind_of(file: str) -> str:
+    """The folder below tests, or two where the first is `unit`, of a file with tests."""
+    parts = Path(file).parts[1:-1]
     return "/".join(parts[: 2 if parts[:1] == ("unit",) else 1]) or "house"
 
 

@@ -27,16 +27,16 @@ def test_the_page_has_the_last_run_and_the_one_before_on_the_same_machine() -> N
 
 
 @pytest.mark.parametrize(
-    ("test", "kind"),
+    ("file", "kind"),
     [
-        ("tests/unit/engine/test_a.py::test_b[c::d]", "unit/engine"),
-        ("tests/unit/test_a.py::test_b", "unit"),
-        ("tests/fmu/native/test_a.py::test_b", "fmu"),
-        ("tests/test_house.py::test_b", "house"),
+        ("tests/unit/engine/test_a.py", "unit/engine"),
+        ("tests/unit/test_a.py", "unit"),
+        ("tests/fmu/native/test_a.py", "fmu"),
+        ("tests/test_house.py", "house"),
     ],
 )
-def test_kinds_of_tests_are_their_folders(test: str, kind: str) -> None:
-    assert kind_of(test) == kind
+def test_kinds_of_tests_are_their_folders(file: str, kind: str) -> None:
+    assert kind_of(file) == kind
 
 
 def test_the_page_that_is_there_is_made_of_the_history_that_is_there() -> None:
