@@ -127,7 +127,7 @@ CASE = Case(
         Program("scipy", "DOP853 with events, impacts by hand", (1e-4, 1e-6, 1e-8, 1e-10, 1e-12), scipy),
         Program("pymunk", "polygon, semi-implicit Euler", (250, 1000, 4000, 16000, 64000), pymunk, "steps"),
     ),
-    floor=1e-12,
+    floor=2e-13,
     cannot={
         "MuJoCo": "It has no coefficient of restitution: its contacts are springs and dampers with constants of time.",
         "Exudyn": "Its contacts are springs and dampers that take time; restitution of its spheres sets such a damper.",

@@ -204,7 +204,7 @@ CASE = Case(
         Program("scipy", "DOP853 with events, multiplier by hand", (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13), scipy),
         Program("pymunk", "slide joint, semi-implicit Euler", (500, 1500, 5000, 15000, 50000), pymunk, "steps"),
     ),
-    floor=2e-12,
+    floor=1e-12,
     cannot={
         "MuJoCo": "States it nearly, as a soft limit of two steps; with bounce not at all.",
         "pymunk": "Without bounce only: its slide joint has none, and its circles touch from outside, not in a hole.",

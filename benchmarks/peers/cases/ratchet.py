@@ -107,7 +107,7 @@ CASE = Case(
         Program("scipy", "RK45 with an event, pseudoinverse", (1e-4, 1e-6, 1e-8, 1e-10, 1e-12), scipy),
         Program("pymunk", "groove, semi-implicit Euler", (500, 1500, 5000, 15000, 50000), pymunk, "steps"),
     ),
-    floor=5e-14,
+    floor=1e-14,
     cannot={
         "MuJoCo": "States it nearly: constraints and the face are soft, of two steps; a tip that leaves is not held.",
         "Exudyn": "It has the joints, but no impact that takes no time at the face: only springs and dampers.",
