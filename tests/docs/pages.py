@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import re
 from pathlib import Path
+from typing import Any
 
 JOINTS = Path(__file__).parents[2] / "docs" / "joints"
 PAGES = sorted(JOINTS.glob("*.md"))
@@ -18,3 +21,11 @@ def examples(page: Path) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = _EXAMPLE.findall(text)
     assert len(found) == len(_PROGRAM.findall(text)), f"{page.name}: a program is not followed by its output"
     return found
+
+
+def what_prints(program: str, page: Path, names: dict[str, Any] | None = None) -> str:
+    """What a program of a page prints; `names` are those that the programs before it have left, and it leaves."""
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec(compile(program, page.name, "exec"), {"__name__": page.stem} if names is None else names)
+    return printed.getvalue()

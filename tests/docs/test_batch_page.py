@@ -1,10 +1,8 @@
 """The examples of docs/how-to/batch.md, which follow each other in one file, print what stands below them."""
 
-import contextlib
-import io
 import shutil
 
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 
 PAGE = JOINTS.parent / "how-to" / "batch.md"
 
@@ -15,8 +13,5 @@ def test_examples_print_what_the_page_says(ratchet_fmu, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}
     for program, expected in examples(PAGE):
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(program, PAGE.name, "exec"), names)
-        assert printed.getvalue() == expected
+        assert what_prints(program, PAGE, names) == expected
     assert "swing" in names

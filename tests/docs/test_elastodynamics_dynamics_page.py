@@ -1,9 +1,6 @@
 """The examples of docs/explanation/elastodynamics-dynamics.md, in one file, print what stands below them."""
 
-import contextlib
-import io
-
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 
 PAGE = JOINTS.parent / "explanation" / "elastodynamics-dynamics.md"
 
@@ -11,7 +8,4 @@ PAGE = JOINTS.parent / "explanation" / "elastodynamics-dynamics.md"
 def test_examples_print_what_the_page_says():
     names: dict[str, object] = {}
     for program, expected in examples(PAGE):
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(program, PAGE.name, "exec"), names)
-        assert printed.getvalue() == expected
+        assert what_prints(program, PAGE, names) == expected

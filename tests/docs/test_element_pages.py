@@ -1,8 +1,6 @@
 """The pages of force elements and contacts say what is true, and what their classes say."""
 
-import contextlib
 import inspect
-import io
 import itertools
 import re
 from dataclasses import replace
@@ -10,7 +8,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from pages import examples
+from pages import examples, what_prints
 
 from docs.elements.described import arguments, unit
 from docs.elements.drawings import DRAWINGS
@@ -66,10 +64,7 @@ def made(part, first, second, **numbers):
     ],
 )
 def test_an_example_prints_what_its_page_says(page, program, printed):
-    text = io.StringIO()
-    with contextlib.redirect_stdout(text):
-        exec(compile(program, page.name, "exec"), {"__name__": page.stem})
-    assert text.getvalue() == printed
+    assert what_prints(program, page) == printed
 
 
 @by_name

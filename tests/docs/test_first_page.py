@@ -1,12 +1,10 @@
 """The program of the first page prints what stands below it, and the moving picture of README.md is that of its run."""
 
-import contextlib
-import io
 import re
 from pathlib import Path
 
 import pytest
-from pages import examples
+from pages import examples, what_prints
 
 from docs.drawings.ratchet_moving import PICTURE, drawing, run
 
@@ -18,10 +16,7 @@ def test_examples_print_what_the_page_says(name: str) -> None:
     found = examples(DOCS / name)
     assert found
     for program, expected in found:
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(program, name, "exec"), {"__name__": Path(name).stem})
-        assert printed.getvalue() == expected
+        assert what_prints(program, DOCS / name) == expected
 
 
 def test_the_moving_picture_is_that_of_a_run() -> None:

@@ -1,14 +1,12 @@
 """docs/explanation/friction.md: its example prints what it says, its pictures are the script's, its table holds."""
 
-import contextlib
 import importlib
-import io
 import re
 from pathlib import Path
 
 import numpy as np
 import pytest
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 
 from docs.drawings.friction_drawing import DRAWINGS, PICTURES
 from mechanism_fmu.model import CamFlatFollower, CamFollower, Mechanism, PointFollower, PointLineContact, Revolute
@@ -23,10 +21,7 @@ def test_examples_print_what_the_page_says():
     found = examples_with_output()
     assert found
     for program, expected in found:
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(program, PAGE.name, "exec"), {"__name__": PAGE.stem})
-        assert printed.getvalue() == expected
+        assert what_prints(program, PAGE) == expected
 
 
 def examples_with_output():

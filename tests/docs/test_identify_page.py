@@ -1,12 +1,10 @@
 """docs/how-to/identify-impacts.md: its program prints what it says, and its table is what the command prints."""
 
-import contextlib
-import io
 import re
 from pathlib import Path
 
 import numpy as np
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 from typer.testing import CliRunner
 
 from harness.app.cli import main
@@ -18,10 +16,7 @@ _NUMBER = re.compile(r"-?\d+\.\d+")
 
 def test_its_program_prints_what_it_says() -> None:
     ((program, expected),) = examples(PAGE)
-    printed = io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        exec(compile(program, PAGE.name, "exec"), {"__name__": PAGE.stem})
-    assert printed.getvalue() == expected
+    assert what_prints(program, PAGE) == expected
 
 
 def test_its_table_is_what_the_command_prints() -> None:

@@ -1,14 +1,12 @@
 """docs/how-to/periodic-motions.md: its program prints what it says, and its tables are what the commands print."""
 
-import contextlib
-import io
 import re
 import shlex
 from pathlib import Path
 
 import numpy as np
 import pytest
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 from typer.testing import CliRunner
 
 from harness.app.cli import main
@@ -26,10 +24,7 @@ _NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?|\b\de-\d+")
 @pytest.mark.slow
 def test_its_program_prints_what_it_says() -> None:
     ((program, expected),) = examples(PAGE)
-    printed = io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        exec(compile(program, PAGE.name, "exec"), {"__name__": PAGE.stem})
-    assert printed.getvalue() == expected
+    assert what_prints(program, PAGE) == expected
 
 
 def test_there_are_four_examples() -> None:

@@ -1,15 +1,13 @@
 """docs/explanation/shapes.md: its example prints what it says, its pictures are the script's and show what they say."""
 
 import cmath
-import contextlib
 import inspect
-import io
 import math
 import re
 
 import numpy as np
 import pytest
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 
 from docs.drawings.shapes_drawing import DRAWINGS, PICTURES, SHAPES
 from docs.drawings.shapes_runs_drawing import (
@@ -35,10 +33,7 @@ def test_examples_print_what_the_page_says() -> None:
     found = examples(PAGE)
     assert found
     for program, expected in found:
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(program, PAGE.name, "exec"), {"__name__": PAGE.stem})
-        assert printed.getvalue() == expected
+        assert what_prints(program, PAGE) == expected
 
 
 @pytest.mark.parametrize("name", DRAWINGS)

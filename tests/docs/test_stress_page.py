@@ -1,11 +1,9 @@
 """The examples of docs/explanation/stress.md, which follow each other in one file, print what stands below them."""
 
-import contextlib
-import io
 import math
 import re
 
-from pages import JOINTS, examples
+from pages import JOINTS, examples, what_prints
 
 from mechanism_fmu.stress import (
     CARDS,
@@ -24,10 +22,7 @@ PAGE = JOINTS.parent / "explanation" / "stress.md"
 def test_examples_print_what_the_page_says():
     names: dict[str, object] = {}
     for program, expected in examples(PAGE):
-        printed = io.StringIO()
-        with contextlib.redirect_stdout(printed):
-            exec(compile(program, PAGE.name, "exec"), names)
-        assert printed.getvalue() == expected
+        assert what_prints(program, PAGE, names) == expected
     assert "result" in names
 
 

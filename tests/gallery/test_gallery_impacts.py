@@ -6,9 +6,9 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from gallery_examples import simulation
-from scipy.integrate import quad
 from scipy.special import ellipeinc
 
+from benchmarks.world.cases.rocking_block import impacts as block_impacts
 from mechanism_fmu.simulation import Impact, Simulation
 
 
@@ -46,33 +46,6 @@ def test_the_scotch_yoke_strikes_its_stops_when_an_elliptic_integral_says() -> N
     assert [impact.contact for impact in found] == ["left", "right", "left", "right"]
     wanted = [*yoke_impacts(len(found))]
     np.testing.assert_allclose([(i.time, i.closing_speed) for i in found], wanted, rtol=5e-9, atol=0)
-
-
-def block_impacts(number: int, width: float, height: float) -> Iterator[tuple[float, float]]:
-    """Times [s] and closing speeds [m/s] of Housner's block.
-
-    It leans by theta over a corner that stands still, and 4/3 R^2 theta'^2/2 + g R cos(alpha - theta) is constant; the
-    time of falling from rest is a quadrature, whose integrand is smooth over the root of the angle fallen. Each impact
-    leaves 1 - 3/2 sin(alpha)^2 of the speed.
-    """
-    radius, alpha = math.hypot(width, height) / 2, math.atan2(width, height)
-    root = math.sqrt(1.5 * 9.81 / radius)
-    time, lean = 0.0, alpha / 2
-    for k in range(number):
-        least = alpha - lean
-
-        def slowness(s: float, least: float = least) -> float:
-            fallen = s * s / 2
-            height_lost = math.sin(least + fallen) * (math.sin(fallen) / fallen if fallen else 1.0)
-            return 2.0 / (root * math.sqrt(height_lost))
-
-        fall, _ = quad(slowness, 0.0, math.sqrt(lean), epsabs=1e-13, epsrel=1e-12)
-        time += fall if k == 0 else 2 * fall
-        drop = 2 * math.sin((alpha + least) / 2) * math.sin(lean / 2)  # cos(least) - cos(alpha)
-        rate = root * math.sqrt(drop)
-        yield time, width * rate
-        rate *= 1 - 1.5 * math.sin(alpha) ** 2
-        lean = alpha - math.acos(math.cos(alpha) + (rate / root) ** 2)
 
 
 @pytest.mark.parametrize(("width", "height"), [(0.2, 0.8), (0.3, 0.5)])
