@@ -12,7 +12,7 @@ from rich.table import Table
 
 from .case import SHOWN, TOLERANCES, work
 from .cases import CASES
-from .pages import FOLDER, Result, index, page, picture
+from .pages import FOLDER, Result, drawings, index, page, picture
 
 
 def run(
@@ -46,6 +46,8 @@ def run(
         for result in results:
             (FOLDER / f"{result.case.name}.md").write_text(page(result, today), encoding="utf-8")
             (FOLDER / f"{result.case.name}.svg").write_text(picture(result), encoding="utf-8")
+            if (more := drawings(result.case)) is not None:
+                (FOLDER / f"{result.case.name}_more.svg").write_text(more, encoding="utf-8")
         if not names:
             (FOLDER / "index.md").write_text(index(results, today), encoding="utf-8")
     if missed:

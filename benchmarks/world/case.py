@@ -11,12 +11,14 @@ from decimal import Decimal
 from pathlib import Path
 from typing import Any, Literal
 
+from harness.report.plot import Plot
 from mechanism_fmu import codes
 from mechanism_fmu.model import Model
 from mechanism_fmu.simulation import Impact, Simulation
 
-#: Where a known value comes from: printed in the source; a formula; an equation of fewer coordinates, solved by scipy.
-Origin = Literal["published", "closed form", "one coordinate"]
+#: Where a known value comes from: printed in the source; a formula; an equation of the one coordinate, solved by scipy;
+#: other equations of the same problem, written by hand in the case's own file and solved without the engine.
+Origin = Literal["published", "closed form", "one coordinate", "second formulation"]
 
 #: Tolerances of the work-precision diagram, and the two whose digits a page shows.
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)
@@ -82,6 +84,7 @@ class Case:
         within: largest deviation at the tighter one of `SHOWN`, with a reason in `remark` where it is more than the
             tolerance explains.
         remark: what the numbers mean; required where a published digit is not reached.
+        drawings: makes other pictures of its page, where there are.
     """
 
     name: str
@@ -93,6 +96,7 @@ class Case:
     model: Callable[..., Any] | Path
     within: float
     remark: str = ""
+    drawings: Callable[[], Sequence[Plot]] | None = None
 
     def deviation(self, run: Run) -> float:
         """The largest of all quantities."""

@@ -43,6 +43,7 @@ def page(result: Result, today: date) -> str:
         "## Values",
         _values(result),
         *([case.remark] if case.remark else []),
+        *([f"![]({case.name}_more.svg)"] if case.drawings else []),
         "## Work and precision",
         f"![]({case.name}.svg)",
         _works(result.works),
@@ -76,7 +77,8 @@ def index(results: Sequence[Result], today: date) -> str:
         "\n".join(rows),
         "Deviations are relative to the known value, absolute where that is 0. A value that nobody has "
         "printed is not called "
-        "published: it comes from a closed form, or from an equation of the one coordinate, solved by scipy to 1e-13.",
+        "published: it comes from a closed form, from an equation of the one coordinate, solved by scipy to 1e-13, "
+        "or from a second formulation of the problem, written by hand and solved without the engine.",
         _BESIDE,
         f"```{{toctree}}\n:hidden:\n\n{names}\npeers\n```",
     ]
@@ -89,6 +91,11 @@ def picture(result: Result) -> str:
     y = [math.log10(max(one.deviation, _LEAST)) for one in result.works]
     curve = Curve("mechanism_fmu", x, y, _BLUE, dots=True)
     return svg_text([Plot(result.case.title, "log10 of processor time [ms]", "log10 of deviation", [curve])])
+
+
+def drawings(case: Case) -> str | None:
+    """The other pictures of its page, below each other, as SVG."""
+    return svg_text(case.drawings()) if case.drawings else None
 
 
 def _values(result: Result) -> str:
