@@ -48,11 +48,14 @@ _MET_WITHIN, _MET_BELOW = 1.5, 0.015
 _BACK = 0.5
 #: Nearer than this sine, rounding is most of what rows say about velocities along the other branch.
 _LEAST_SINE = 1.5e-5
-#: Points behind are no closer to each other than where the sine is this: nearer ones would carry rounding on.
+#: It is never read on by less than to where the sine is this: nearer points would carry rounding on.
 _SPACED_BY = 3e-3
+#: Points are so many times as far apart as the dependence is away, and the polynomial is read on by 2/3 of a spacing:
+#: what rounding has left on them counts 40 times. By two spacings of that distance itself, it would 3000 times.
+_SPACING = 3.0
 #: Steps from one point to the next: beside the dependence, off the rows, accelerations change in proportion to 1 over
 #: the distance from it, so that steps must be short beside that.
-_PARTS = 6
+_PARTS = 18
 #: Nearer than this sine, rounding is most of the error, which may be more than the tolerance, but not than this.
 _ROUNDING_BELOW, _ROUNDING = 3e-3, 1e-8
 #: And nearer than this one, rows are not closed: what they are off, over the sine, is motion along the other branch.
@@ -109,8 +112,9 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     sine = math.sqrt(Course(block).independence_end[0])
     if not (sine > _LEAST_SINE and apart > smallest_step(start)):
         return REFUSED, 0.0
-    spacing = apart * max(1.0, _SPACED_BY / sine)
-    size = within_motions(block, start, within_ramp(block, start, apart + spacing))
+    beyond = apart * max(1.0, _SPACED_BY / sine)
+    spacing = _SPACING * beyond
+    size = within_motions(block, start, within_ramp(block, start, apart + beyond))
     size = (start + size) - start
     if not (size > apart and _look_back(block, start, spacing, sine < _CLOSED_ABOVE)):
         return REFUSED, 0.0
@@ -154,7 +158,7 @@ def read_passed(block: Array) -> None:
     set_time(block, start)
     derivative(block, s.y_start, s.derivatives[0])
     sine = math.sqrt(independence(block))
-    spacing = (now.clock[codes.PASSED_AT] - start) * max(1.0, _SPACED_BY / sine)
+    spacing = _SPACING * (now.clock[codes.PASSED_AT] - start) * max(1.0, _SPACED_BY / sine)
     _look_back(block, start, spacing, sine < _CLOSED_ABOVE)
     _hermite(block, (now.clock[codes.TIME] - start) / spacing, spacing, BEHIND, now.y_end)
 
