@@ -141,6 +141,8 @@ class LinearSystem(Table):
     share of its squared length that is left after projection. A row of `scaled` has three entries of each of the
     bodies in `scaled_body`.
 
+    `kept` is 1 where the next factorisation is to be kept, 2 once it stands: while nothing but forces changes.
+
     The sparse solution has an order of the rows, `place`, made for the first `planned` rows with bodies `plan_body`;
     `fill` are the earlier places with which a row has entries, `fill_count` many from `fill_start` on, and `lower`
     these entries: what is behind the last one is never touched, and costs no memory.
@@ -167,6 +169,7 @@ class LinearSystem(Table):
     pivot = real("rows", work=True)
     spread = real("rows", work=True)
     by_pivots = integer(1, work=True)
+    kept = integer(1, name="factors_kept", work=True)
     right_side = real("rows", work=True)
     solution = real("columns", work=True)
     multiplier = real("rows", work=True)
@@ -329,7 +332,8 @@ class Sensitivity(Table, rows="responses", prefix="response_"):
     """Scratch of directional derivatives.
 
     Along which change of inputs and states they are; what these and the derivatives are before; the result, outputs
-    first, then derivatives of the states, and an estimate of its error; difference quotients, and what is extrapolated.
+    first, then derivatives of the states, an estimate of its error, and whether it is asked for; difference quotients,
+    and what is extrapolated.
     """
 
     input_seed = real("inputs", alone=True, name="input_seed", work=True)
@@ -337,6 +341,7 @@ class Sensitivity(Table, rows="responses", prefix="response_"):
     inputs = real("inputs", alone=True, name="response_inputs", work=True)
     states = real("unknowns", alone=True, name="response_states", work=True)
     rates = real("unknowns", alone=True, name="response_rates", work=True)
+    asked = integer(name="asked", work=True)
     response = real(name="response", work=True)
     error = real(work=True)
     quotient = real(work=True)

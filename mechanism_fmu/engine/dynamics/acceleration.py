@@ -17,7 +17,7 @@ from ..outlines.advance import come_nearer
 from ..profiles.nearest import settle_contact_points
 from ..vectors import largest
 from .forces import apply_forces
-from .linear_solve import solve, write_matrix
+from .linear_solve import KEEP, STANDS, factorise, solve, solve_again, write_matrix
 from .sliding import slide
 
 
@@ -65,13 +65,17 @@ def accelerate(block: Array, count: int) -> None:
     load = Loads(block)
     for k in range(n):
         load.free_acceleration[k] = mass.inverse_mass[k] * load.force[k]
-    scale_rows(block, count)
     row = Rows(block)
     system = LinearSystem(block)
     ground = Sizes(block).bodies
     for r in range(count):
         system.right_side[r] = -along_row(row, r, load.free_acceleration, ground, -row.gamma[r])
-    solve(block, count, n)
+    if system.kept[0] != STANDS:
+        scale_rows(block, count)
+        factorise(block, count, n)
+        if system.kept[0] == KEEP:
+            system.kept[0] = STANDS
+    solve_again(block, count, n)
 
 
 @jit

@@ -11,6 +11,9 @@ from .sparse import factorise_sparse, solve_sparse
 #: From so many rows on; fewer gain little, and keep what is exact to the last digit, such as zeros along a guide.
 _SPARSE_FROM = 20
 
+#: Of `linear_system.kept`.
+KEEP, STANDS = 1, 2
+
 
 @jit
 def write_matrix(block: Array, count: int, factor: Array) -> None:

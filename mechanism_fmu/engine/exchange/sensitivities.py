@@ -5,6 +5,9 @@ Software 4, 1982). Accelerations and forces are linear in the forces that inputs
 and slip: there the first difference is exact, however large its step is, and the second one, which agrees with it, ends
 the search. What is not linear (friction in joints, laws of the user's own, states) is extrapolated until the best of
 all estimates is found, for each number by itself.
+
+Where inputs alone change, all of it comes from one factorisation of the constraints; and what is not asked for is
+neither waited for nor, of the derivatives of states, computed.
 """
 
 from __future__ import annotations
@@ -12,10 +15,11 @@ from __future__ import annotations
 import math
 
 from ...tables.declare import Array
-from ...tables.motion import LEVELS, Course, Sensitivity
+from ...tables.motion import LEVELS, Course, LinearSystem, Sensitivity
 from ...tables.parts import Ports
 from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_apart, keep_small
+from ..dynamics.linear_solve import KEEP
 from ..outputs import read_outputs
 from ..vectors import copy
 from .indicators import evaluate
@@ -32,8 +36,8 @@ _PART, _LEAST_INPUT, _OF_STATES = 0.5, 1e-2, 1e-2
 def respond(block: Array) -> None:
     """Write `sensitivity.response`: outputs, then derivatives of the states, along `input_seed` and `state_seed`.
 
-    Where the outside has reached TIME; states may have seeds only where that is the end of the engine's own step. The
-    motion is not touched.
+    Only what is `asked` for is to be read. Where the outside has reached TIME; states may have seeds only where that is
+    the end of the engine's own step. The motion is not touched.
     """
     keep_small()
     now = Course(block)
@@ -42,7 +46,9 @@ def respond(block: Array) -> None:
     copy(ports.inputs, table.inputs)
     copy(now.y_end, table.states)
     copy(now.dy_end, table.rates)
-    step = _first_step(block)
+    step, moved = _first_step(block)
+    if not moved:
+        LinearSystem(block).kept[0] = KEEP
     for k in range(table.response.shape[0]):
         table.error[k] = math.inf
         table.response[k] = math.nan
@@ -51,6 +57,7 @@ def respond(block: Array) -> None:
         if _extrapolate(block, level):
             break
         step /= _SHRINKS
+    LinearSystem(block).kept[0] = 0
     _move(block, 0.0)
     copy(table.states, now.y_end)
     copy(table.inputs, ports.inputs)
@@ -59,18 +66,20 @@ def respond(block: Array) -> None:
 
 
 @jit
-def _first_step(block: Array) -> float:
-    """By how much of the seeds inputs and states move at first."""
+def _first_step(block: Array) -> tuple[float, bool]:
+    """By how much of the seeds inputs and states move at first, and whether a state does."""
     keep_small()
     table = Sensitivity(block)
     step = math.inf
+    moved = False
     for k in range(table.inputs.shape[0]):
         if table.input_seed[k] != 0.0:
             step = min(step, (_PART * abs(table.inputs[k]) + _LEAST_INPUT) / abs(table.input_seed[k]))
     for k in range(table.states.shape[0]):
         if table.state_seed[k] != 0.0:
             step = min(step, _OF_STATES / abs(table.state_seed[k]))
-    return step if step < math.inf else 1.0
+            moved = True
+    return step if step < math.inf else 1.0, moved
 
 
 @jit
@@ -94,16 +103,29 @@ def _difference(block: Array, step: float) -> None:
     outputs = Ports(block).outputs
     rates = Course(block).dy_end
     count = Sizes(block).outputs
+    outside, inside = _asks(block, 0, count), _asks(block, count, quotient.shape[0])
     for side in range(2):
         sign = 1.0 if side == 0 else -1.0
         _move(block, sign * step)
-        read_outputs(block)
-        evaluate(block)
+        if outside:
+            read_outputs(block)
+        if inside:
+            evaluate(block)
         for k in range(quotient.shape[0]):
             value = outputs[k] if k < count else rates[k - count]
             if side == 0:
                 quotient[k] = 0.0
             quotient[k] += 0.5 * sign * value / step
+
+
+@jit
+def _asks(block: Array, first: int, end: int) -> bool:
+    """Whether one of these numbers is asked for."""
+    asked = Sensitivity(block).asked
+    count = 0
+    for k in range(first, end):
+        count += asked[k]
+    return count > 0
 
 
 @jit
@@ -129,6 +151,6 @@ def _extrapolate(block: Array, level: int) -> bool:
             table.tableau[order, k] = estimate
             estimate = better
         table.tableau[level, k] = estimate
-        if not table.error[k] <= _AGREE * abs(table.response[k]):
+        if table.asked[k] == 1 and not table.error[k] <= _AGREE * abs(table.response[k]):
             settled = False
     return settled

@@ -63,6 +63,17 @@ def quotient(slave: FmuSlave, outputs: list[str], name: str) -> np.ndarray:
     return np.take_along_axis(np.array(found[1:]), apart.argmin(axis=0)[None], axis=0)[0]
 
 
+def test_an_output_has_the_derivative_that_it_has_among_others(native_ratchet_fmu, instance):
+    """The search ends with what is asked for; an output that is not linear keeps the others waiting, not otherwise."""
+    slave = instance(native_ratchet_fmu)
+    inputs, outputs = inputs_and_outputs(slave)
+    slave.step(0.0, 0.5)
+    for name in inputs:
+        together = derivative(slave, outputs, [name], [1.0])
+        alone = [derivative(slave, [one], [name], [1.0])[0] for one in outputs]
+        assert alone == pytest.approx(together, rel=1e-10, abs=1e-12)
+
+
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=() if name == "ratchet" else pytest.mark.slow) for name in models.available()]
 )

@@ -193,8 +193,12 @@ static Status ready(Instance *x, const char *call, const unsigned unknown[], siz
     if (require(x, call, IN(INITIALIZATION) | IN(STEPPING) | RUNNING | IN(TERMINATED)) != OK || prepare(x) != OK)
         return ERROR;
     size_t place;
-    for (size_t k = 0; k < unknowns; k++)
+    int64_t *asked = (int64_t *)FIELD(x, asked);
+    memset(asked, 0, (size_t)(SIZE(x, outputs) + state_count(x)) * sizeof(int64_t));
+    for (size_t k = 0; k < unknowns; k++) {
         if (unknown_place(x, call, unknown[k], &place) != OK) return ERROR;
+        asked[place] = 1;
+    }
     memset(FIELD(x, input_seed), 0, model.inputs * sizeof(double));
     memset(FIELD(x, state_seed), 0, state_count(x) * sizeof(double));
     x->outputs_read = 0;
