@@ -9,6 +9,7 @@ from . import (
     equal_slider_crank,
     geneva,
     n_four_bar,
+    painleve_rod,
     pendulum,
     rockers,
     rocking_block,
@@ -20,6 +21,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, geneva, bouncing_ball, rocking_block, woodpecker),
+        *(trains, geneva, bouncing_ball, rocking_block, painleve_rod, woodpecker),
     )
 }
