@@ -9,6 +9,7 @@ from . import (
     equal_slider_crank,
     geneva,
     n_four_bar,
+    newtons_cradle,
     painleve_rod,
     pendulum,
     rockers,
@@ -21,6 +22,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, geneva, bouncing_ball, rocking_block, painleve_rod, woodpecker),
+        *(trains, geneva, bouncing_ball, newtons_cradle, rocking_block, painleve_rod, woodpecker),
     )
 }
