@@ -8,6 +8,7 @@ from . import (
     bouncing_ball,
     equal_slider_crank,
     geneva,
+    impacting_stick,
     n_four_bar,
     newtons_cradle,
     painleve_rod,
@@ -22,6 +23,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, geneva, bouncing_ball, newtons_cradle, rocking_block, painleve_rod, woodpecker),
+        *(trains, geneva, bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker),
     )
 }
