@@ -7,7 +7,11 @@ from . import (
     andrews,
     bouncing_ball,
     equal_slider_crank,
+    geneva,
+    impacting_stick,
     n_four_bar,
+    newtons_cradle,
+    painleve_rod,
     pendulum,
     rockers,
     rocking_block,
@@ -19,6 +23,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, bouncing_ball, rocking_block, woodpecker),
+        *(trains, geneva, bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker),
     )
 }
