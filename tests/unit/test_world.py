@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from benchmarks.world import __main__ as command
 from benchmarks.world.case import SHOWN, Case, Known, Run, work
-from benchmarks.world.cases import CASES
+from benchmarks.world.cases import CASES, chain
 from benchmarks.world.pages import FOLDER, Result, index
 
 _SLOW = {"rockers", "n_four_bar"}
@@ -20,6 +21,14 @@ def test_a_case_is_as_near_as_it_says(name: str) -> None:
     found = case.run(SHOWN[-1])
     assert case.deviation(found) <= case.within
     assert case.remark or not case.unreached(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", chain.COUNTS)
+def test_digits_of_the_chain_are_what_lagranges_equations_give(count: int) -> None:
+    found, looser = (chain.quantities(chain.angles(count, tolerance)) for tolerance in (1e-13, 1e-12))
+    np.testing.assert_allclose(found, looser, rtol=1e-12)
+    np.testing.assert_allclose(found, chain.BY_ANGLES[count], rtol=1e-12)
 
 
 def test_a_published_value_is_reached_to_half_a_unit_of_its_last_digit() -> None:

@@ -6,6 +6,7 @@ from ..case import Case
 from . import (
     andrews,
     bouncing_ball,
+    chain,
     equal_slider_crank,
     n_four_bar,
     pendulum,
@@ -18,7 +19,7 @@ from . import (
 CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
-        *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
+        *(andrews, pendulum, chain, n_four_bar, equal_slider_crank, rockers),
         *(trains, bouncing_ball, rocking_block, woodpecker),
     )
 }
