@@ -92,7 +92,7 @@ def angles(count: int, tolerance: float = 1e-13) -> Vector:
 
 
 def _known() -> Iterator[Known]:
-    sources: dict[Origin, dict[int, tuple[float, ...]]]
+    sources: dict[Origin, dict[int, tuple[float, float, float]]]
     sources = {"second formulation": BY_ANGLES, "other program": BY_MUJOCO}
     for count in COUNTS:
         for origin, found in sources.items():
