@@ -8,6 +8,7 @@ from . import (
     bouncing_ball,
     chain,
     equal_slider_crank,
+    governor,
     n_four_bar,
     pendulum,
     rockers,
@@ -19,7 +20,7 @@ from . import (
 CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
-        *(andrews, pendulum, chain, n_four_bar, equal_slider_crank, rockers),
+        *(andrews, pendulum, chain, n_four_bar, equal_slider_crank, rockers, governor),
         *(trains, bouncing_ball, rocking_block, woodpecker),
     )
 }
