@@ -133,9 +133,8 @@ CASE = Case(
     remark=(
         "Three formulations: absolute coordinates of all rods with constraints (ours), absolute angles with a full "
         "matrix of inertia (Lagrange, DOP853 at 1e-13), and angles between rods by MuJoCo, whose steps of fourth "
-        "order are halved and extrapolated. In 1.5 s the chain of 10 rods has swung to the other side and back down "
-        "again at its pin; that of 50 passes its pin, and its end has not begun to turn: it falls freely as long as no "
-        "wave has reached it."
+        "order are halved and extrapolated. In 1.5 s the chain of 10 rods has swung to the other side and begun to come "
+        "down at its pin; that of 50 passes the vertical below its pin, and its end has turned over."
     ),
     drawings=_pictures,
 )
