@@ -34,9 +34,8 @@ BY_ANGLES = {
     10: (-2.3175553384609, -1.74635916339, -0.3219411940289),
     50: (-1.4829408605366, -1.0821658464424, -9.066809407172),
 }
-#: The same by MuJoCo 4.0.0: the model of benchmarks/peers/cases/chain.py with these lengths and masses and a start
-#: angle of 0; angles q(N) of its Runge-Kutta method of fourth order with N steps, N = 24000 and 48000, extrapolated
-#: to q(48000) + (q(48000) - q(24000))/15.
+#: The same by MuJoCo 4.0.0, as tests/unit/test_world_in_mujoco.py finds them: angles q(N) of its Runge-Kutta method of
+#: fourth order with N steps, N = 24000 and 48000, extrapolated to q(48000) + (q(48000) - q(24000))/15.
 BY_MUJOCO = {
     10: (-2.3175553384609, -1.74635916339, -0.32194119402898),
     50: (-1.4829408605366, -1.082165846442, -9.0668094071721),
@@ -133,8 +132,8 @@ CASE = Case(
     remark=(
         "Three formulations: absolute coordinates of all rods with constraints (ours), absolute angles with a full "
         "matrix of inertia (Lagrange, DOP853 at 1e-13), and angles between rods by MuJoCo, whose steps of fourth "
-        "order are halved and extrapolated. In 1.5 s the chain of 10 rods has swung to the other side and begun to come "
-        "down at its pin; that of 50 passes the vertical below its pin, and its end has turned over."
+        "order are halved and extrapolated. In 1.5 s the chain of 10 rods has swung to the other side, and begins to "
+        "come down at its pin; that of 50 passes the vertical below its pin, and its end has turned over."
     ),
     drawings=_pictures,
 )

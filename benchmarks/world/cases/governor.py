@@ -61,8 +61,9 @@ BY_LAGRANGE = (
     0.39007370184463,
     5.5482036226549,
 )
-#: By MuJoCo 4.0.0, in space: a hinge of the shaft, a slide and two hinges on it, springs and dampers as spatial
-#: tendons, balls of 1e-12 kg m2; its Runge-Kutta method of fourth order with 100000 and 200000 steps, extrapolated.
+#: By MuJoCo 4.0.0, in space, as tests/unit/test_world_in_mujoco.py finds them: a hinge of the shaft, a slide and two
+#: hinges on it, springs and dampers as tendons, balls of 1e-12 kg m2; its Runge-Kutta method of fourth order with
+#: 100000 and 200000 steps, extrapolated.
 BY_MUJOCO = (
     0.74324942478635,
     0.25949138154339,
