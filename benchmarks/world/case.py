@@ -17,8 +17,9 @@ from mechanism_fmu.model import Model
 from mechanism_fmu.simulation import Impact, Simulation
 
 #: Where a known value comes from: printed in the source; a formula; an equation of the one coordinate, solved by scipy;
-#: other equations of the same problem, written by hand in the case's own file and solved without the engine.
-Origin = Literal["published", "closed form", "one coordinate", "second formulation"]
+#: other equations of the same problem, written by hand in the case's own file and solved without the engine; the same
+#: model in another program, whose name, version and settings stand in the case's file.
+Origin = Literal["published", "closed form", "one coordinate", "second formulation", "other program"]
 
 #: Tolerances of the work-precision diagram, and the two whose digits a page shows.
 TOLERANCES = (1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12)

@@ -78,7 +78,8 @@ def index(results: Sequence[Result], today: date) -> str:
         "Deviations are relative to the known value, absolute where that is 0. A value that nobody has "
         "printed is not called "
         "published: it comes from a closed form, from an equation of the one coordinate, solved by scipy to 1e-13, "
-        "or from a second formulation of the problem, written by hand and solved without the engine.",
+        "from a second formulation of the problem, written by hand and solved without the engine, or from another "
+        "program.",
         _BESIDE,
         f"```{{toctree}}\n:hidden:\n\n{names}\npeers\n```",
     ]

@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from benchmarks.world import __main__ as command
 from benchmarks.world.case import SHOWN, Case, Known, Run, work
-from benchmarks.world.cases import CASES
+from benchmarks.world.cases import CASES, chain, governor
 from benchmarks.world.pages import FOLDER, Result, index
 
 _SLOW = {"rockers", "n_four_bar"}
@@ -20,6 +21,25 @@ def test_a_case_is_as_near_as_it_says(name: str) -> None:
     found = case.run(SHOWN[-1])
     assert case.deviation(found) <= case.within
     assert case.remark or not case.unreached(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", chain.COUNTS)
+def test_digits_of_the_chain_are_what_lagranges_equations_give(count: int) -> None:
+    found, looser = (chain.quantities(chain.angles(count, tolerance)) for tolerance in (1e-13, 1e-12))
+    np.testing.assert_allclose(found, looser, rtol=1e-12)
+    np.testing.assert_allclose(found, chain.BY_ANGLES[count], rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_digits_of_the_governor_are_what_lagranges_equations_give() -> None:
+    np.testing.assert_allclose(governor.by_lagrange(), governor.BY_LAGRANGE, rtol=1e-12)
+
+
+def test_the_inertia_of_the_governor_grows_as_its_slope_says() -> None:
+    """A parabola: central differences are exact but for rounding."""
+    grown = governor.inertia_over(1.6) - governor.inertia_over(1.4)
+    assert grown / 0.2 == pytest.approx(governor.slope_over(1.5), rel=1e-13)
 
 
 def test_a_published_value_is_reached_to_half_a_unit_of_its_last_digit() -> None:

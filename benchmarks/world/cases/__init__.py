@@ -6,8 +6,10 @@ from ..case import Case
 from . import (
     andrews,
     bouncing_ball,
+    chain,
     equal_slider_crank,
     geneva,
+    governor,
     impacting_stick,
     n_four_bar,
     newtons_cradle,
@@ -22,7 +24,7 @@ from . import (
 CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
-        *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, geneva, bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker),
+        *(andrews, pendulum, chain, n_four_bar, equal_slider_crank, rockers, governor, trains, geneva),
+        *(bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker),
     )
 }
