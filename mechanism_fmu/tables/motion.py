@@ -277,7 +277,7 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     closing = real(work=True)
     impulse = real(work=True)
     candidates = integer(name="candidates", work=True)
-    problem = integer(2, alone=True, name="problem", work=True)
+    problem = integer(3, alone=True, name="problem", work=True)
     rates_before = real("coordinates", alone=True, name="rates_before", work=True)
     rates_of_round = real("coordinates", alone=True, name="rates_of_round", work=True)
     closed = integer(work=True)

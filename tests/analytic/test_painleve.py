@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.world.cases.painleve_rod import GRAVITY, HALF, MASS, rod
+from benchmarks.world.cases.painleve_rod import FRICTION, GRAVITY, HALF, MASS, START, rod
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
@@ -68,6 +68,14 @@ def test_a_shock_leads_on_and_takes_energy(method: int) -> None:
         found = simulation.read()
         assert found["kinetic"] - found["work"] + found["lost"] == pytest.approx(before["kinetic"], rel=1e-8)
     assert shocks == 1
+
+
+@pytest.mark.parametrize("tolerance", [1e-7, 1e-8, 1e-9, 1e-10, 1e-12])
+def test_a_shock_leads_on_however_the_end_is_met(tolerance: float) -> None:
+    """Mending drift may leave the friction of what would stick some 1e-11 of it on either side of its bound."""
+    simulation = Simulation(rod(*START, FRICTION, tolerance, tangential_shock=True))
+    simulation.advance(0.12)
+    assert guards(simulation) == ["floor.shock"]
 
 
 @pytest.mark.parametrize("friction", [0.15, 0.3])

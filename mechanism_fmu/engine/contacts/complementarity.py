@@ -29,10 +29,13 @@ from ..constraints.rows import contact_row
 from ..dynamics.sliding import hold
 from ..vectors import largest
 from .proposal import CONES, SPLIT, propose
-from .trial import COUNT, FORCES, IMPULSES, KIND, excess, slip_change, try_modes
+from .trial import COUNT, FORCES, IMPULSES, KIND, SHOCK, excess, slip_change, try_modes
 
 #: An impulse may be missing this share of the largest one.
 _IMPULSE_SHARE = 1e-11
+#: And stick lack this share of what holds it, where no approach but friction calls for an impulse: motions end there
+#: where stick is at its bound (a stop is named from 1e-6 of that on, `stepping.step_size`), and drift is mended after.
+_SHOCK_SHARE = 1e-6
 _MOST_PIVOTS = 64
 #: Where events pile up, a force that lacks this part of its tolerance pulls.
 _HARDLY = 1e-3
@@ -225,7 +228,8 @@ def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
     spare = spare_row(block)
     tolerance = PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, active)
     if Strikes(block).problem[KIND] == IMPULSES:
-        tolerance = _IMPULSE_SHARE * largest(multiplier, active)
+        share = _SHOCK_SHARE if Strikes(block).problem[SHOCK] == 1 else _IMPULSE_SHARE
+        tolerance = share * largest(multiplier, active)
     for k in range(table.slip.shape[0]):
         if table.free[k] != codes.FREE or not touches(block, k):
             continue

@@ -25,7 +25,7 @@ from ..vectors import largest
 from .complementarity import push_impulses
 from .routh import along_routh
 from .rubbing import free_all
-from .trial import ABSENT, COUNT
+from .trial import ABSENT, COUNT, SHOCK
 
 #: An impact may seem to add this share of the kinetic energy, by rounding.
 _ROUNDING = 1e-13
@@ -93,7 +93,9 @@ def shock(block: Array, at: Pose) -> int:
     for k in range(rub.slip.shape[0]):
         if rub.free[k] == codes.FREE:
             rub.slip[k] = codes.STICKS
+    strike.problem[SHOCK] = 1
     outcome = push_impulses(block, at)
+    strike.problem[SHOCK] = 0
     if outcome != status.OK:
         return outcome
     _apply(block)
