@@ -12,6 +12,7 @@ from . import (
     rockers,
     rocking_block,
     trains,
+    verge_foliot,
     woodpecker,
 )
 
@@ -19,6 +20,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, bouncing_ball, rocking_block, woodpecker),
+        *(trains, bouncing_ball, rocking_block, woodpecker, verge_foliot),
     )
 }
