@@ -7,6 +7,7 @@ from . import (
     andrews,
     bouncing_ball,
     equal_slider_crank,
+    graham,
     n_four_bar,
     pendulum,
     rockers,
@@ -20,6 +21,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, bouncing_ball, rocking_block, woodpecker, verge_foliot),
+        *(trains, bouncing_ball, rocking_block, woodpecker, verge_foliot, graham),
     )
 }
