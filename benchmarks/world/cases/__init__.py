@@ -13,6 +13,7 @@ from . import (
     rockers,
     rocking_block,
     trains,
+    two_masses,
     verge_foliot,
     woodpecker,
 )
@@ -22,5 +23,6 @@ CASES: dict[str, Case] = {
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
         *(trains, bouncing_ball, rocking_block, woodpecker, verge_foliot, graham),
+        two_masses,
     )
 }
