@@ -49,7 +49,7 @@ def page(result: Result, today: date) -> str:
         _works(result.works),
         "Deviation: the largest of all quantities, relative to the known value (absolute where that is 0). "
         "Time: of the "
-        "processor, with making and assembling the mechanism; the least of three.",
+        "processor, with making and assembling the mechanism; the least of three, where one takes less than a second.",
         "## Model",
         _model(case),
     ]

@@ -12,6 +12,7 @@ import pytest
 
 import models
 from benchmarks.escapements import ESCAPEMENTS, columns, exponent, steady
+from benchmarks.world.cases.graham import CYCLES, TICKS, Clock, cycle
 from mechanism_fmu.model import MechanismError
 from mechanism_fmu.moving import Impact
 from mechanism_fmu.simulation import Simulation
@@ -87,6 +88,20 @@ def test_graham_ticks_as_another_computation_found() -> None:
         assert tick.time == pytest.approx(float(wanted["t"]), abs=1e-8)
         assert tick.closing_speed == pytest.approx(-float(wanted["closing"]), rel=1e-7)
         assert tick.contact.partition("_")[0] == wanted["contact"].partition("/")[0]
+
+
+def test_the_second_formulation_of_graham_ticks_as_another_computation_found() -> None:
+    """That of benchmarks.world, which has its own numbers of the default clock."""
+    ticks = Clock(TORQUE["graham"], **DATA["graham"]).go(6).ticks
+    wanted = [(float(one["t"]), -float(one["closing"])) for one in GRAHAM["results"]["first_ticks"]]
+    np.testing.assert_allclose(ticks, wanted, rtol=0, atol=1e-12)
+
+
+@pytest.mark.slow
+def test_the_numbers_of_graham_in_benchmarks_are_those_of_its_second_formulation() -> None:
+    np.testing.assert_allclose(Clock(TORQUE["graham"]).go(6).ticks, TICKS, rtol=0, atol=1e-12)
+    for factor, numbers in CYCLES.items():
+        np.testing.assert_allclose(cycle(factor, -0.066 * math.sqrt(factor)), numbers, rtol=0, atol=1e-11)
 
 
 def test_the_dead_beat_keeps_its_rate_where_the_recoil_does_not() -> None:

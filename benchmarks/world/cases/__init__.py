@@ -10,6 +10,7 @@ from . import (
     equal_slider_crank,
     geneva,
     governor,
+    graham,
     impacting_stick,
     n_four_bar,
     newtons_cradle,
@@ -18,6 +19,8 @@ from . import (
     rockers,
     rocking_block,
     trains,
+    two_masses,
+    verge_foliot,
     woodpecker,
 )
 
@@ -26,5 +29,6 @@ CASES: dict[str, Case] = {
     for module in (
         *(andrews, pendulum, chain, n_four_bar, equal_slider_crank, rockers, governor, trains, geneva),
         *(bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker),
+        *(verge_foliot, graham, two_masses),
     )
 }

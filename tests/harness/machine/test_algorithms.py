@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
+from benchmarks.world.cases.two_masses import ONE, SCHEMES, START, TWO, C, K, Scheme, by_power, ran as ran_two_masses
 from harness.errors import UsageError
 from harness.machine.connection import Connection
 from harness.machine.machine import Machine
@@ -165,3 +166,17 @@ def test_steps_by_tolerance_grow_where_little_happens() -> None:
     sizes = np.diff(times)
     assert sizes[:5].max() < 0.05
     assert sizes.max() > 0.4
+
+
+@pytest.mark.parametrize("scheme", SCHEMES, ids=[scheme.name for scheme in SCHEMES])
+@pytest.mark.parametrize("step", [0.1, 0.02])
+def test_a_run_of_exact_components_is_a_power_of_the_schemes_matrix(scheme: Scheme, step: float) -> None:
+    (a, b), (c, d) = ONE, TWO  # mass 1 is told the torque with the sign of its connection
+    shaft = [[1, 0], [0, 1], [-K, -C]], [[0, 0], [0, 0], [K, C]]
+    one = Linear("one", (a, -b, np.eye(2), np.zeros((2, 1))), {"torque": ""}, _states("one"), START[:2])
+    two = Linear("two", (c, d, *shaft), {"angle": "", "speed": ""}, {**_states("two"), "torque": ""}, START[2:])
+    np.testing.assert_allclose(ran_two_masses(one, two, scheme, step), by_power(scheme, step), rtol=0, atol=1e-12)
+
+
+def _states(name: str) -> dict[str, str]:
+    return {f"{name}_angle": "", f"{name}_speed": ""}
