@@ -1,25 +1,19 @@
-"""The derivative of the map from one cycle to the next, through its impacts: differences along one order of events.
-
-Through an impact the motion is a smooth function of its beginning as long as events keep their order (what the
-saltation matrix says in closed form); so differences between motions with the same events, extrapolated to a step of
-zero, are that derivative. Where however small steps change the order, there is none: the motion grazes.
-"""
+"""The derivative of the map from one cycle to the next, through its impacts: differences along one order of events."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from .. import differences
+from ..differences import Sample, Slopes
 from ..model import MechanismError
 from ..moving import SimulationError
 from .passage import CycleError, Passage
 from .start import Array, Problem
 
-#: Steps, over the scale of the unknown [1]: the first, by how much each is less, how many are extrapolated.
-_FIRST, _LESS, _LEVELS = 4e-3, 2.0, 6
-#: Where events change, steps become less down to this, over the scale [1].
+#: Within such a step, over the scale of the unknown [1], events must keep their order.
 _LEAST = 1e-7
 #: In Newton's method one step does.
 _ROUGH = 1e-4
@@ -32,21 +26,8 @@ class GrazingError(CycleError):
     """The order of events changes however little the beginning does: there is no derivative."""
 
 
-@dataclass(frozen=True)
-class Slopes:
-    """A derivative, and how well it is known.
-
-    Attributes:
-        matrix: d end / d beginning, shape (unknowns, unknowns) [their units].
-        errors: estimated from the extrapolation, the same shape.
-    """
-
-    matrix: Array
-    errors: Array
-
-
 def slopes(problem: Problem, cycle: Map, x: Array, sequence: tuple[str, ...], least: float = _LEAST) -> Slopes:
-    """The derivative by differences on both sides, extrapolated.
+    """The derivative of the end of a cycle by its beginning, shape (unknowns, unknowns) [their units].
 
     Args:
         problem: whose unknowns they are.
@@ -57,11 +38,21 @@ def slopes(problem: Problem, cycle: Map, x: Array, sequence: tuple[str, ...], le
 
     Raises:
         GrazingError: the order of events changes within the least step.
-
-    Source: C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
     """
-    columns = [_column(problem, cycle, x, k, sequence, max(least, _LEAST)) for k in range(len(x))]
-    return Slopes(np.column_stack([c for c, _ in columns]), np.column_stack([e for _, e in columns]))
+
+    def sample(points: Sequence[Array]) -> list[Sample]:
+        return [Sample(*_end(cycle, point, sequence)) for point in points]
+
+    found = differences.slopes(sample, x, x, problem.scales(x), least=max(least, _LEAST))
+    for unknown, value, change, within in zip(problem.unknowns, x, found.changes, found.within, strict=True):
+        if change:
+            raise GrazingError(
+                f"Grazing: within {within:.1e} {unknown.unit} of {unknown.name} = {value:.9g} {unknown.unit} the order "
+                f"of events changes: {change}. There the motion has no derivative, and so no multipliers. Change a "
+                "parameter so that this contact clearly strikes or clearly misses, or begin the cycle elsewhere, where "
+                "no contact is about to touch."
+            )
+    return found
 
 
 def rough_slopes(problem: Problem, cycle: Map, x: Array) -> Array:
@@ -78,56 +69,6 @@ def rough_slopes(problem: Problem, cycle: Map, x: Array) -> Array:
         size = float(np.abs(step).sum())
         columns.append((cycle(x + step)[0] - cycle(x - step)[0]) / (2.0 * size))
     return np.column_stack(columns)
-
-
-def _column(
-    problem: Problem, cycle: Map, x: Array, k: int, sequence: tuple[str, ...], least: float
-) -> tuple[Array, Array]:
-    """The derivative by one unknown, and its error; each shape (unknowns,)."""
-    scale = float(problem.scales(x)[k])
-    step, change = _FIRST * scale, ""
-    rows: list[list[Array]] = []
-    best, error = np.zeros_like(x), np.full_like(x, np.inf)
-    while len(rows) < _LEVELS and step > least * scale:
-        ends = []
-        for side in (1.0, -1.0):
-            moved = x.copy()
-            moved[k] += side * step
-            end, differs = _end(cycle, moved, sequence)
-            change = differs or change
-            ends.append(end)
-        if ends[0] is None or ends[1] is None:
-            rows.clear()  # only what lies within one order of events is extrapolated
-            best, error = np.zeros_like(x), np.full_like(x, np.inf)
-        else:
-            rows.append([(ends[0] - ends[1]) / (2.0 * step)])
-            best, error = _extrapolated(rows, best, error)
-        step /= _LESS
-    if not rows:
-        name = problem.unknowns[k]
-        raise GrazingError(
-            f"Grazing: within {2.0 * step:.1e} {name.unit} of {name.name} = {x[k]:.9g} {name.unit} the order of events "
-            f"changes: {change}. There the motion has no derivative, and so no multipliers. Change a parameter so that "
-            "this contact clearly strikes or clearly misses, or begin the cycle elsewhere, where no contact is about "
-            "to touch."
-        )
-    if len(rows) == 1:
-        error = np.abs(best)
-    return best, error
-
-
-def _extrapolated(rows: list[list[Array]], best: Array, error: Array) -> tuple[Array, Array]:
-    """The last row of Richardson's table filled, and of each component the entry that is known best."""
-    row, factor = rows[-1], _LESS * _LESS
-    if len(rows) == 1:
-        return row[0], error
-    for j, above in enumerate(rows[-2]):
-        power = factor ** (j + 1)
-        row.append((power * row[j] - above) / (power - 1.0))
-        new = np.maximum(np.abs(row[-1] - row[j]), np.abs(row[-1] - above))
-        better = new <= error
-        best, error = np.where(better, row[-1], best), np.where(better, new, error)
-    return best, error
 
 
 def _end(cycle: Map, x: Array, sequence: tuple[str, ...]) -> tuple[Array | None, str]:

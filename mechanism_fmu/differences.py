@@ -1,0 +1,153 @@
+"""Derivatives by differences between motions that have the same events in the same order, extrapolated to a step of zero.
+
+Through impacts a motion is a smooth function of its beginning and of its parameters as long as events keep their order
+(what the saltation matrix says in closed form). Where however little changes the order, there is no derivative: the
+motion grazes.
+
+Source: C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+#: Steps, over the scale of a variable [1]: the first, by how much each is less, how many are extrapolated.
+_FIRST, _LESS, _LEVELS = 4e-3, 2.0, 6
+#: Where events change, steps become less down to this, over the scale [1].
+_LEAST = 1e-7
+
+
+@dataclass(frozen=True)
+class Sample:
+    """What comes of a point.
+
+    Attributes:
+        values: of the quantities, shape (quantities,); None where there are none.
+        change: in words, in what its events differ from those at the middle; "" if they are the same.
+    """
+
+    values: Array | None
+    change: str = ""
+
+
+#: From points, shape (variables,) each, to what comes of them.
+Sampling = Callable[[Sequence[Array]], Sequence[Sample]]
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """A derivative, and how well it is known.
+
+    Attributes:
+        matrix: d quantity / d variable, shape (quantities, variables) [their units]; not a number where there is none.
+        errors: estimated from the extrapolation, the same shape.
+        changes: of each variable, why there is none, or "".
+        within: of each variable, how little it was moved at last [its unit].
+    """
+
+    matrix: Array
+    errors: Array
+    changes: tuple[str, ...]
+    within: Array
+
+
+def slopes(
+    sample: Sampling,
+    middle: Array,
+    x: Array,
+    scales: Array,
+    *,
+    low: Array | None = None,
+    high: Array | None = None,
+    levels: int = _LEVELS,
+    least: float = _LEAST,
+) -> Slopes:
+    """The derivative by differences on both sides, or on one where a variable is at its limit, extrapolated.
+
+    Args:
+        sample: gives the quantities; it is asked for the points of all variables at one step together.
+        middle: quantities at x, shape (quantities,).
+        x: where, shape (variables,).
+        scales: what steps are shares of, shape (variables,) [their units].
+        low: limits of the variables, the same shape; None: none.
+        high: likewise.
+        levels: how many steps are extrapolated.
+        least: step over the scale [1] within which events must keep their order.
+    """
+    down = np.full_like(x, np.inf) if low is None else x - low
+    up = np.full_like(x, np.inf) if high is None else high - x
+    columns = [_Column(k, middle, float(x[k]), float(scales[k]), float(down[k]), float(up[k])) for k in range(len(x))]
+    while asked := [column for column in columns if len(column.rows) < levels and column.step > least * column.scale]:
+        points = [_moved(x, column.place, end) for column in asked for end in column.ends()]
+        samples = iter(sample(points))
+        for column in asked:
+            column.take([next(samples) for _ in column.ends()])
+    return Slopes(
+        np.column_stack([column.best for column in columns]),
+        np.column_stack([column.error for column in columns]),
+        tuple("" if column.rows else column.change for column in columns),
+        np.array([column.step * _LESS for column in columns]),
+    )
+
+
+def _moved(x: Array, place: int, value: float) -> Array:
+    moved = x.copy()
+    moved[place] = value
+    return moved
+
+
+class _Column:
+    """The derivative by one variable, while steps become less; it may go `down` and `up` by so much [its unit]."""
+
+    def __init__(self, place: int, middle: Array, x: float, scale: float, down: float, up: float) -> None:
+        self.place, self.middle, self.x, self.scale = place, middle, x, scale
+        step = _FIRST * scale
+        self.sides: tuple[float, ...] = (1.0, -1.0)
+        if min(down, up) < step:  # at a limit
+            self.sides = (1.0,) if up >= down else (-1.0,)
+            step = min(step, max(up, down))
+        self.step = step
+        self.rows: list[list[Array]] = []
+        self.change = ""
+        self._forget()
+
+    def _forget(self) -> None:
+        self.rows.clear()
+        self.best, self.error = np.full_like(self.middle, np.nan), np.full_like(self.middle, np.inf)
+
+    def ends(self) -> list[float]:
+        return [self.x + side * self.step for side in self.sides]
+
+    def take(self, samples: Sequence[Sample]) -> None:
+        """The next row of Richardson's table, unless events have changed: only one order of events is extrapolated."""
+        self.change = next((one.change for one in samples if one.change), self.change)
+        ends = [one.values for one in samples if one.values is not None and not one.change]
+        if len(ends) < len(samples):
+            self._forget()
+        elif len(ends) == 2:
+            self._extrapolate((ends[0] - ends[1]) / (2.0 * self.step), _LESS * _LESS)
+        else:
+            self._extrapolate(self.sides[0] * (ends[0] - self.middle) / self.step, _LESS)
+        self.step /= _LESS
+
+    def _extrapolate(self, quotient: Array, factor: float) -> None:
+        """The last row filled, and of each component the entry that is known best."""
+        row = [quotient]
+        self.rows.append(row)
+        if len(self.rows) == 1:
+            self.best, self.error = quotient, np.where(np.isnan(quotient), np.inf, np.abs(quotient))
+            return
+        if len(self.rows) == 2:
+            self.error = np.full_like(self.middle, np.inf)
+        for j, above in enumerate(self.rows[-2]):
+            power = factor ** (j + 1)
+            row.append((power * row[j] - above) / (power - 1.0))
+            new = np.maximum(np.abs(row[-1] - row[j]), np.abs(row[-1] - above))
+            better = new <= self.error
+            self.best, self.error = np.where(better, row[-1], self.best), np.where(better, new, self.error)
