@@ -1,4 +1,4 @@
-"""The commands `mechanism-fmu sweep` and `optimise`."""
+"""The commands `mechanism-fmu sweep`, `optimise` and `gradient`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from .options import folder_option
+from .options import file_option, folder_option, quantity_option, settings_option
 
 #: What commands with many designs share.
 DesignsFolder = Annotated[
@@ -127,3 +127,56 @@ def optimise(
 
     with user_errors():
         raise typer.Exit(run_optimise(file, output, Runners(workers, scheduler, fast, trust)))
+
+
+def gradient(
+    model: Annotated[
+        str,
+        typer.Argument(
+            metavar="MODEL|FMU",
+            help="Name of a ready-made model, e.g. 'ratchet', file of your own mechanism, or FMU.",
+            show_default=False,
+        ),
+    ],
+    of: Annotated[
+        list[str],
+        typer.Option(
+            "--of", metavar="QUANTITY", help="When and what, as 'first_impact.time'. Once for each.", show_default=False
+        ),
+    ],
+    by: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--by",
+            metavar="NAME",
+            help="Parameter or input. Once for each.",
+            show_default="all Real ones but those of the integration",
+        ),
+    ] = None,
+    settings: Annotated[list[str] | None, settings_option("Value of a parameter or input. Once for each.")] = None,
+    stop_time: Annotated[str | None, quantity_option("End of the run; the model's unless given.")] = None,
+    step: Annotated[str | None, quantity_option("Communication step; the model's unless given.")] = None,
+    trust: Trust = False,
+    output: Annotated[Path | None, file_option("FILE.csv|FILE.json", "none", "What is found, to write.")] = None,
+) -> None:
+    """Say how quantities of a run change with parameters and inputs: derivatives, through impacts.
+
+    They come from differences between designs that have the same events, extrapolated to a step of zero, with an
+    estimate of their error. Where any step, however small, changes the events, as where a contact grazes, there is no
+    derivative, and it is said why. Quantities are those of sweeps: end, max or min of an output, first_impact,
+    largest_impact or all_impacts with a stress, parameter.
+
+    Try:
+
+        mechanism-fmu gradient ratchet --of first_impact.time --of first_impact.stress_max --stop-time 1.2s
+
+    The page of it: docs/how-to/gradients.md.
+
+    Exit code: 0 all well, 1 a derivative that was asked for --by name does not exist, 2 wrong use.
+    """
+    from .commands.gradient_found import Asked, find
+    from .terminal import user_errors
+
+    asked = Asked(model, tuple(of), tuple(by or ()), tuple(settings or ()), stop_time, step, trust)
+    with user_errors():
+        raise typer.Exit(find(asked, output))

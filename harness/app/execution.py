@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from types import FrameType
@@ -205,3 +205,21 @@ def _end_with(alive: int) -> None:
         os._exit(FAILED)
 
     threading.Thread(target=wait, daemon=True).start()
+
+
+def require_writable(output: Path | None, kinds: Sequence[str]) -> None:
+    """Refuse a file before there is anything to write into it: one of another kind, or without a folder.
+
+    Args:
+        output: the file, or None.
+        kinds: how its name may end, as ".csv".
+
+    Raises:
+        UsageError: it cannot be written.
+    """
+    if output is None:
+        return
+    if output.suffix not in kinds:
+        raise UsageError(f"{output.name} ends in {output.suffix!r}; give a file that ends in {' or '.join(kinds)}.")
+    if not output.absolute().parent.is_dir():
+        raise UsageError(f"There is no folder '{output.absolute().parent}' to write {output.name} into; make it first.")

@@ -11,6 +11,7 @@ from ..errors import UsageError
 from ..fmu.description import Description, Variable
 from ..fmu.values import parse_value
 from ..toml_file import TomlFile, as_text, is_number
+from .gradient import events_of
 from .task import MOST_DESIGNS, Design, Quantity, Result, Task, UnknownQuantityError, column, recorded, with_slenderness
 from .variation import Axis, axes, shared
 
@@ -193,6 +194,8 @@ class Optimum:
         method: `CONTINUOUS` or `MIXED`.
         count: designs that the search may run.
         seed: of whatever is random.
+        gradient: whether what is found is refined along gradients.
+        events: what is recorded besides to tell which designs have the same events.
         around: how the sensitivity of the optimum is found; None if it is not asked for.
     """
 
@@ -203,6 +206,8 @@ class Optimum:
     method: str
     count: int
     seed: int
+    gradient: bool
+    events: tuple[Quantity, ...]
     around: Around | None
 
     @property
@@ -228,6 +233,7 @@ class Optimum:
             "count": self.count,
             "seed": self.seed,
             "sensitivity": around,
+            **({"gradient": True} if self.gradient else {}),  # results of files without it stay what they are
         }
 
 
@@ -251,12 +257,15 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
         "count", least=1, most=MOST_DESIGNS, needed="write how many designs may be run, as in count = 200"
     )
     seed = section.whole("seed", least=0)
+    by_gradient = section.flag("gradient")
     section.done()
     goal = read_goal(file, description) if section.given else None
     free = tuple(axes(file, description, running.inputs, list(fixed), grid=False))
     smooth = all(axis.values is None and axis.variable.type == "Real" for axis in free)
     if method == CONTINUOUS and not smooth:
         section.wrong("method", f"'{CONTINUOUS}' is for Real variables with from and to; with others, take '{MIXED}'")
+    if by_gradient and not any(axis.values is None and axis.variable.type == "Real" for axis in free):
+        section.wrong("gradient", "is for Real variables with from and to, of which there is none")
     around = _around(file)
     if around is not None and len(near(free)) < 2:
         file.wrong(("sensitivity",), "compares variables with from and to, of which there must be two or more")
@@ -265,14 +274,12 @@ def read_optimum(file: TomlFile, description: Description) -> Optimum:
     assert running.grid is not None  # otherwise there were mistakes
     assert goal is not None
     assert count is not None
-    task = Task(
-        running.grid,
-        fixed,
-        running.inputs,
-        with_slenderness(with_goal(quantities, goal), description),
-        running.material,
-    )
-    return Optimum(title, task, free, goal, method or (CONTINUOUS if smooth else MIXED), count, seed or 0, around)
+    looked_at = with_slenderness(with_goal(quantities, goal), description)
+    events = events_of(goal.quantities, description) if by_gradient else ()
+    events = tuple(one for one in events if one not in looked_at)
+    task = Task(running.grid, fixed, running.inputs, (*looked_at, *events), running.material)
+    chosen = method or (CONTINUOUS if smooth else MIXED)
+    return Optimum(title, task, free, goal, chosen, count, seed or 0, by_gradient, events, around)
 
 
 def _around(file: TomlFile) -> Around | None:

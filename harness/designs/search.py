@@ -1,4 +1,4 @@
-"""Optimisation: how better designs are found, always the same ones (differential evolution, Nelder-Mead, TPE)."""
+"""Optimisation: how better designs are found, always the same (differential evolution, TPE; Nelder-Mead, SLSQP)."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from ..errors import UsageError, way_to_get
 from ..fmu.description import Value
+from .landscape import Landscape, NoGradientError
 from .optimum_file import CONTINUOUS, Optimum
 from .store import Store
 from .task import Design, Result
@@ -127,10 +128,12 @@ class History:
 _MEMBERS = 8
 #: Candidates that are run before the next are thought of. Not the number of processors: it would decide what is found.
 _TOGETHER = 8
-#: Part of all designs that the search at large may have; the rest refines what it found.
-_AT_LARGE = 0.75
+#: Part of all designs that the search at large may have; the rest refines what it found, along gradients half of all.
+_AT_LARGE, _BEFORE_GRADIENTS = 0.75, 0.5
 #: First and last size of the simplex that refines, as a part of each range.
 _FIRST, _LAST = 0.05, 1e-7
+#: Along gradients it ends where the objective gets better by less than this part of its size at the beginning.
+_FINE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -156,14 +159,15 @@ def search(optimum: Optimum, history: History) -> Best:
         InterruptedSearchError: somebody wants it to end.
     """
     real = [axis for axis in optimum.axes if axis.values is None and axis.variable.type == "Real"]
-    at_large = max(1, round(_AT_LARGE * optimum.count)) if real else optimum.count
+    part = _BEFORE_GRADIENTS if optimum.gradient else _AT_LARGE
+    at_large = max(1, round(part * optimum.count)) if real else optimum.count
     history.allow(at_large)
     _until_enough(
         lambda: _differential_evolution(optimum, history) if optimum.method == CONTINUOUS else _tpe(optimum, history)
     )
     history.allow(optimum.count)
     if real:
-        _until_enough(lambda: _nelder_mead(optimum, history, real))
+        _until_enough(lambda: _refine(optimum, history, real))
     return best_of(optimum, history)
 
 
@@ -173,6 +177,12 @@ def best_of(optimum: Optimum, history: History) -> Best:
     place = int(np.argmin(merits))
     result = history.results[place]
     return Best(history.designs[place], result, optimum.goal.violation(result, optimum.task) == 0.0)
+
+
+def _refine(optimum: Optimum, history: History, real: Sequence[Axis]) -> None:
+    """Along gradients, where they are asked for and there are any; else by comparing merits."""
+    if not (optimum.gradient and _descend(optimum, history, real)):
+        _nelder_mead(optimum, history, real)
 
 
 def _until_enough(look: Callable[[], object]) -> None:
@@ -231,6 +241,40 @@ def _nelder_mead(optimum: Optimum, history: History, real: Sequence[Axis]) -> No
         bounds=[(0.0, 1.0)] * len(real),
         options={"initial_simplex": simplex, "xatol": _LAST, "fatol": np.inf, "maxfev": 10 * optimum.count},
     )
+
+
+def _descend(optimum: Optimum, history: History, real: Sequence[Axis]) -> bool:
+    """Refine the Real variables of the best design by gradients; whether there were any, as far as it went.
+
+    D. Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28 (1988), by scipy.
+    """
+    from scipy import optimize
+
+    start = best_of(optimum, history)
+    if start.result.failure is not None:
+        return False
+    landscape = Landscape(optimum, real, start.design.values, lambda points: _all_of(history, points))
+    fractions = np.array([axis.fraction(float(start.design.values[axis.name])) for axis in real])
+    try:
+        optimize.minimize(
+            landscape.objective,
+            fractions,
+            method="SLSQP",
+            jac=landscape.objective_slopes,
+            bounds=[(0.0, 1.0)] * len(real),
+            constraints=landscape.constraints(),
+            options={"ftol": _FINE, "maxiter": optimum.count},
+        )
+    except NoGradientError:
+        return False
+    return True
+
+
+def _all_of(history: History, points: Sequence[Mapping[str, Value]]) -> list[Result]:
+    results = history.results_of(points)
+    if len(results) < len(points):
+        raise EnoughError
+    return results
 
 
 def _moved(start: npt.NDArray[np.float64], k: int) -> npt.NDArray[np.float64]:

@@ -193,6 +193,14 @@ def quantity(when: When, name: str, description: Description) -> Quantity:
     raise UnknownQuantityError(_objection(when, name, description, variables))
 
 
+def every_quantity(when: When, description: Description) -> list[Quantity]:
+    """All that can be had at this time."""
+    return [
+        Quantity(when, variable.name, variable.type, variable.unit, variable.display_unit)
+        for variable in _variables(when, description).values()
+    ]
+
+
 def column(text: str, description: Description) -> Quantity:
     """The quantity of a column, as "largest_impact.stress_max".
 

@@ -27,6 +27,7 @@ from mechanism_fmu.periodic import (
 
 from ...errors import HarnessError, UsageError
 from ...run.results import write_json, write_text
+from ..execution import require_writable
 from ..output import give, note
 from ..terminal import console, show_note, show_progress, show_table
 
@@ -63,7 +64,7 @@ def find(name: str, asked: Asked, output: Path | None) -> int:
         UsageError: the options cannot be; the message says what can.
         HarnessError: there is no such motion, or it has no multipliers.
     """
-    _require_writable(output)
+    require_writable(output, _KINDS)
     if (asked.section is None) == (asked.period is None):
         raise UsageError(
             "Say where a cycle ends: --section OUTPUT for a free period, or --period 0.5s for that of a drive; one of "
@@ -190,15 +191,6 @@ def _show(found: Cycle, name: str) -> None:
 
 def _number(value: float, margin: float) -> str:
     return "0" if abs(value) <= margin else f"{value:.9f}"
-
-
-def _require_writable(output: Path | None) -> None:
-    if output is None:
-        return
-    if output.suffix not in _KINDS:
-        raise UsageError(f"{output.name} ends in {output.suffix!r}; give a file that ends in {' or '.join(_KINDS)}.")
-    if not output.absolute().parent.is_dir():
-        raise UsageError(f"There is no folder '{output.absolute().parent}' to write {output.name} into; make it first.")
 
 
 def _write(found: Cycle, output: Path) -> None:

@@ -173,6 +173,8 @@ def _ending_of_search(
     values = best.design.values.items()
     rows = [[name, shown(value, name, description), "free"] for name, value in values]
     for quantity, value in zip(optimum.task.quantities, best.result.values, strict=True):
+        if quantity in optimum.events:
+            continue
         role = "objective" if quantity == optimum.goal.objective else "found"
         rows.append([quantity.column, "none" if value is None else f"{value:.9g} {quantity.unit}".strip(), role])
     show_table(f"Best design: number {best.design.number}", ["quantity", "value", ""], rows)

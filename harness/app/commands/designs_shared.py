@@ -78,7 +78,7 @@ def opened(
     folder = Path(path.stem) if folder is None else folder
     file = TomlFile.read(path)
     wanted = source(file)
-    with _fmu_file(wanted) as found, open_fmu(found) as fmu:
+    with fmu_file(wanted) as found, open_fmu(found) as fmu:
         asked, built = read(file, fmu.description), wanted.path is None
         known = identity(contents(fmu), asked.task, asked.axes, asked.how, asked.designs)
         with alone_in(folder):
@@ -105,7 +105,7 @@ def _keep_built(fmu: Fmu, folder: Path) -> None:
 
 
 @contextmanager
-def _fmu_file(wanted: Source) -> Iterator[Path]:
+def fmu_file(wanted: Source) -> Iterator[Path]:
     """The FMU's file; that of a model is built each time, into a folder that goes.
 
     The same sources give the same GUID, and others another one, which a folder with results then refuses.
