@@ -6,6 +6,7 @@ from ..case import Case
 from . import (
     andrews,
     bouncing_ball,
+    cam_follower,
     equal_slider_crank,
     n_four_bar,
     pendulum,
@@ -19,6 +20,6 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
-        *(trains, bouncing_ball, rocking_block, woodpecker),
+        *(trains, bouncing_ball, rocking_block, woodpecker, cam_follower),
     )
 }
