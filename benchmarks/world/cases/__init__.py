@@ -7,6 +7,7 @@ from . import (
     andrews,
     bouncing_ball,
     cam_follower,
+    clearance_slider_crank,
     equal_slider_crank,
     n_four_bar,
     pendulum,
@@ -21,5 +22,6 @@ CASES: dict[str, Case] = {
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
         *(trains, bouncing_ball, rocking_block, woodpecker, cam_follower),
+        *(clearance_slider_crank,),
     )
 }
