@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
+from benchmarks.world.cases.clearance_four_bar import COUPLER, CRANK as CRANK_OF_FOUR, GROUND_LENGTH, ROCKER, four_bar
 from benchmarks.world.cases.clearance_slider_crank import CRANK, ROD, in_guide, slider_crank
 from mechanism_fmu.model import (
     GROUND,
@@ -14,8 +14,6 @@ from mechanism_fmu.model import (
     Outline,
     OutlineContact,
     Output,
-    Revolute,
-    Torque,
     Translational,
 )
 
@@ -54,14 +52,7 @@ def slider_crank_with_play(e: float, points: int = 2) -> Mechanism:
     return replace(slider_crank(slider, (guide,), (play,), rod_end=False), outputs=_SHOWN)
 
 
-#: Where the example of Siconos begins, mechanics/FourBarWithClearance: q as the case counts it.
-START_OF_FOUR_BAR = (
-    *(1.570823772407980, 0.3532842020624460, 1.264872058968431),
-    *(1.876454585097650, 1.691962091335582, 0.3764686197082958, 1.191962183453451),
-)
-
-
-#: Its coordinates, as the case counts them.
+#: Coordinates of the four-bar, as the case counts them.
 NAMES_OF_FOUR_BAR = ("crank.angle", "coupler.angle", "rocker.angle", "coupler.x", "coupler.y", "rocker.x", "rocker.y")
 
 
@@ -80,21 +71,12 @@ def joint_with_play(name: str, pin: Body, at_pin: tuple[float, float], hole: Bod
 
 def four_bar_with_play(e: float) -> Mechanism:
     """All joints but that of the crank on the ground have play."""
-    l0, l1, l2, l3 = 3.0, 1.0, 4.0, 2.5
-    q = START_OF_FOUR_BAR
-    crank = Body("crank", 1.0, l1**2 / 12, start=(l1 / 2 * math.cos(q[0]), l1 / 2 * math.sin(q[0]), q[0]))
-    coupler = Body("coupler", 1.0, l2**2 / 12, start=(q[3], q[4], q[1]))
-    rocker = Body("rocker", 1.0, l3**2 / 12, start=(l0 + q[5], q[6], q[2]))
+    made = four_bar(e)
+    crank, coupler, rocker = made.bodies
+    half = COUPLER / 2
     contacts = (
-        joint_with_play("crank-coupler", crank, (l1 / 2, 0.0), coupler, (-l2 / 2, 0.0), e),
-        joint_with_play("coupler-rocker", rocker, (l3 / 2, 0.0), coupler, (l2 / 2, 0.0), e),
-        joint_with_play("rocker-ground", rocker, (-l3 / 2, 0.0), GROUND, (l0, 0.0), e),
+        joint_with_play("crank-coupler", crank, (CRANK_OF_FOUR / 2, 0.0), coupler, (-half, 0.0), e),
+        joint_with_play("coupler-rocker", rocker, (ROCKER / 2, 0.0), coupler, (half, 0.0), e),
+        joint_with_play("rocker-ground", rocker, (-ROCKER / 2, 0.0), GROUND, (GROUND_LENGTH, 0.0), e),
     )
-    return Mechanism(
-        (crank, coupler, rocker),
-        (Revolute("hinge", crank.at(-l1 / 2, 0.0), GROUND),),
-        forces=(Torque("motor", crank, torque=10.0),),
-        contacts=contacts,
-        gravity=G,
-        outputs=of_body(*NAMES_OF_FOUR_BAR),
-    )
+    return replace(made, contacts=contacts, outputs=of_body(*NAMES_OF_FOUR_BAR))

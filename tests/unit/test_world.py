@@ -1,13 +1,15 @@
 """The published problems of benchmarks/world, and that their pages hold what the cases say."""
 
 from pathlib import Path
+from types import ModuleType
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from benchmarks.world import __main__ as command
 from benchmarks.world.case import SHOWN, Case, Known, Run, work
-from benchmarks.world.cases import CASES
+from benchmarks.world.cases import CASES, clearance_four_bar, clearance_slider_crank
 from benchmarks.world.pages import FOLDER, Result, index
 
 _SLOW = {"rockers", "n_four_bar"}
@@ -20,6 +22,12 @@ def test_a_case_is_as_near_as_it_says(name: str) -> None:
     found = case.run(SHOWN[-1])
     assert case.deviation(found) <= case.within
     assert case.remark or not case.unreached(found)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [clearance_slider_crank, clearance_four_bar])
+def test_digits_are_those_of_the_second_formulation(case: ModuleType) -> None:
+    assert np.array(case.second_formulation()) == pytest.approx(np.array(case.FOUND), rel=1e-9)
 
 
 def test_a_published_value_is_reached_to_half_a_unit_of_its_last_digit() -> None:

@@ -7,6 +7,7 @@ from . import (
     andrews,
     bouncing_ball,
     cam_follower,
+    clearance_four_bar,
     clearance_slider_crank,
     equal_slider_crank,
     n_four_bar,
@@ -22,6 +23,6 @@ CASES: dict[str, Case] = {
     for module in (
         *(andrews, pendulum, n_four_bar, equal_slider_crank, rockers),
         *(trains, bouncing_ball, rocking_block, woodpecker, cam_follower),
-        *(clearance_slider_crank,),
+        *(clearance_slider_crank, clearance_four_bar),
     )
 }
