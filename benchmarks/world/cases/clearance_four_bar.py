@@ -190,7 +190,7 @@ CASE = Case(
     title="Four-bar with three clearances",
     statement=(
         "Uniform bars of 1 kg: crank 1 m, coupler 4 m, rocker 2.5 m, ground 3 m. An ideal hinge carries the crank; the "
-        "other three joints are pins of 50 mm radius in holes of 55 mm, without friction. All at rest, pins in the middle; "
+        "other joints are pins of 50 mm radius in holes of 55 mm, without friction; all at rest, pins in the middle. "
         "10 N m on the crank, weight 9.81 m/s\u00b2."
     ),
     source=(
