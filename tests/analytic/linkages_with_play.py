@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from typing import Any
 
+from benchmarks.world.cases.clearance_four_bar import COUPLER, CRANK as CRANK_OF_FOUR, GROUND_LENGTH, ROCKER, four_bar
+from benchmarks.world.cases.clearance_slider_crank import CRANK, ROD, in_guide, slider_crank
 from mechanism_fmu.model import (
     GROUND,
     Body,
@@ -12,8 +14,6 @@ from mechanism_fmu.model import (
     Outline,
     OutlineContact,
     Output,
-    Revolute,
-    Torque,
     Translational,
 )
 
@@ -26,48 +26,18 @@ def of_body(*names: str) -> tuple[Output, ...]:
     return tuple(Output(name, name.replace("angle_rate", "speed"), "") for name in every)
 
 
-L1, L2 = 0.153, 0.306
-
-
-def slider_crank(slider: Body, joints: tuple[Any, ...], contacts: tuple[Any, ...], rod_end: bool) -> Mechanism:
-    """Crank and rod of Flores, Leine and Glocker (2010), and a slider at the end of the rod."""
-    crank = Body("crank", 0.038, 7.4e-5, start=(L1 / 2, 0.0, 0.0), start_rate=(0.0, 150.0 * L1 / 2, 150.0))
-    speed = 150.0 * L1 - 75.0 * L2 / 2
-    rod = Body("rod", 0.038, 5.9e-4, start=(L1 + L2 / 2, 0.0, 0.0), start_rate=(0.0, speed, -75.0))
-    pins = (
-        Revolute("main", crank.at(-L1 / 2, 0.0), GROUND),
-        Revolute("crank_pin", crank.at(L1 / 2, 0.0), rod.at(-L2 / 2, 0.0)),
-        *((Revolute("piston_pin", rod.at(L2 / 2, 0.0), slider.at(0.0, 0.0)),) if rod_end else ()),
-        *joints,
-    )
-    shown = of_body("crank.angle", "rod.angle", "slider.angle", "slider.x")
-    return Mechanism((crank, rod, slider), pins, contacts=contacts, gravity=G, outputs=shown)
+#: What the slider-cranks show.
+_SHOWN = of_body("crank.angle", "rod.angle", "slider.angle", "slider.x")
 
 
 def slider_crank_in_guide(e: float, spin: float, friction: float = 0.0) -> Mechanism:
     """The slider is a block of 100 x 50 mm, with 1 mm to a guide on either side, and turns at `spin` [rad/s]."""
-    slider = Body("slider", 0.076, 2.7e-6, start=(L1 + L2, 0.0, 0.0), start_rate=(0.0, 0.0, spin))
-    block = Outline.polygon([(0.05, 0.025), (-0.05, 0.025), (-0.05, -0.025), (0.05, -0.025)])
-    guides = {"bottom": [(1.0, -0.026), (-1.0, -0.026)], "top": [(-1.0, 0.026), (1.0, 0.026)]}
-    contacts = tuple(
-        OutlineContact(
-            name,
-            slider,
-            GROUND,
-            outline_i=block,
-            outline_j=Outline.chain(points),
-            restitution=e,
-            friction=friction,
-            points=2,
-        )
-        for name, points in guides.items()
-    )
-    return slider_crank(slider, (), contacts, rod_end=True)
+    return replace(in_guide(e, spin, friction), outputs=_SHOWN)
 
 
 def slider_crank_with_play(e: float, points: int = 2) -> Mechanism:
     """The slider has a pin of 10 mm in a hole of 10.5 mm of the rod, in the middle at first."""
-    slider = Body("slider", 0.076, 2.7e-6, start=(L1 + L2, 0.0, 0.0))
+    slider = Body("slider", 0.076, 2.7e-6, start=(CRANK + ROD, 0.0, 0.0))
     rod = Body("rod", 1.0, 1.0)
     guide = Translational("guide", slider.line((0, 0), (1.0, 0.0)), GROUND.line((0, 0), (1.0, 0.0)))
     play = OutlineContact(
@@ -75,21 +45,14 @@ def slider_crank_with_play(e: float, points: int = 2) -> Mechanism:
         slider,
         rod,
         outline_i=Outline.circle(0.01),
-        outline_j=Outline.circle(0.0105, (L2 / 2, 0.0), hole=True),
+        outline_j=Outline.circle(0.0105, (ROD / 2, 0.0), hole=True),
         restitution=e,
         points=points,
     )
-    return slider_crank(slider, (guide,), (play,), rod_end=False)
+    return replace(slider_crank(slider, (guide,), (play,), rod_end=False), outputs=_SHOWN)
 
 
-#: Where the example of Siconos begins, mechanics/FourBarWithClearance: q as the case counts it.
-START_OF_FOUR_BAR = (
-    *(1.570823772407980, 0.3532842020624460, 1.264872058968431),
-    *(1.876454585097650, 1.691962091335582, 0.3764686197082958, 1.191962183453451),
-)
-
-
-#: Its coordinates, as the case counts them.
+#: Coordinates of the four-bar, as the case counts them.
 NAMES_OF_FOUR_BAR = ("crank.angle", "coupler.angle", "rocker.angle", "coupler.x", "coupler.y", "rocker.x", "rocker.y")
 
 
@@ -108,21 +71,12 @@ def joint_with_play(name: str, pin: Body, at_pin: tuple[float, float], hole: Bod
 
 def four_bar_with_play(e: float) -> Mechanism:
     """All joints but that of the crank on the ground have play."""
-    l0, l1, l2, l3 = 3.0, 1.0, 4.0, 2.5
-    q = START_OF_FOUR_BAR
-    crank = Body("crank", 1.0, l1**2 / 12, start=(l1 / 2 * math.cos(q[0]), l1 / 2 * math.sin(q[0]), q[0]))
-    coupler = Body("coupler", 1.0, l2**2 / 12, start=(q[3], q[4], q[1]))
-    rocker = Body("rocker", 1.0, l3**2 / 12, start=(l0 + q[5], q[6], q[2]))
+    made = four_bar(e)
+    crank, coupler, rocker = made.bodies
+    half = COUPLER / 2
     contacts = (
-        joint_with_play("crank-coupler", crank, (l1 / 2, 0.0), coupler, (-l2 / 2, 0.0), e),
-        joint_with_play("coupler-rocker", rocker, (l3 / 2, 0.0), coupler, (l2 / 2, 0.0), e),
-        joint_with_play("rocker-ground", rocker, (-l3 / 2, 0.0), GROUND, (l0, 0.0), e),
+        joint_with_play("crank-coupler", crank, (CRANK_OF_FOUR / 2, 0.0), coupler, (-half, 0.0), e),
+        joint_with_play("coupler-rocker", rocker, (ROCKER / 2, 0.0), coupler, (half, 0.0), e),
+        joint_with_play("rocker-ground", rocker, (-ROCKER / 2, 0.0), GROUND, (GROUND_LENGTH, 0.0), e),
     )
-    return Mechanism(
-        (crank, coupler, rocker),
-        (Revolute("hinge", crank.at(-l1 / 2, 0.0), GROUND),),
-        forces=(Torque("motor", crank, torque=10.0),),
-        contacts=contacts,
-        gravity=G,
-        outputs=of_body(*NAMES_OF_FOUR_BAR),
-    )
+    return replace(made, contacts=contacts, outputs=of_body(*NAMES_OF_FOUR_BAR))

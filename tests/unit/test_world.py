@@ -1,6 +1,7 @@
 """The published problems of benchmarks/world, and that their pages hold what the cases say."""
 
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ from typer.testing import CliRunner
 
 from benchmarks.world import __main__ as command
 from benchmarks.world.case import SHOWN, Case, Known, Run, work
-from benchmarks.world.cases import CASES, chain, governor
+from benchmarks.world.cases import CASES, chain, clearance_four_bar, clearance_slider_crank, governor
 from benchmarks.world.pages import FOLDER, Result, index
 
 _SLOW = {"rockers", "n_four_bar"}
@@ -34,6 +35,12 @@ def test_digits_of_the_chain_are_what_lagranges_equations_give(count: int) -> No
 @pytest.mark.slow
 def test_digits_of_the_governor_are_what_lagranges_equations_give() -> None:
     np.testing.assert_allclose(governor.by_lagrange(), governor.BY_LAGRANGE, rtol=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [clearance_slider_crank, clearance_four_bar])
+def test_digits_are_those_of_flights_between_impacts(case: ModuleType) -> None:
+    assert np.array(case.second_formulation()) == pytest.approx(np.array(case.FOUND), rel=1e-9)
 
 
 def test_the_inertia_of_the_governor_grows_as_its_slope_says() -> None:

@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 
-from mechanism_fmu.model import Mechanism
 from mechanism_fmu.simulation import Simulation
 
-from ...ratchet import unit
-from ...world.case import example
+from ...world.cases.clearance_slider_crank import (
+    CRANK,
+    CRANK_INERTIA,
+    CRANK_MASS,
+    GRAVITY,
+    PIN_PLAY,
+    ROD,
+    ROD_INERTIA,
+    ROD_MASS,
+    SLIDER_MASS,
+    SPEED,
+    Pin,
+    with_play,
+)
 from ..case import Case, Program, Run, Vector
 from ..programs import engine
 
-CRANK, ROD, CLEARANCE, SPEED, GRAVITY, STOP = 0.153, 0.306, 0.5e-3, 150.0, 9.81, 0.03
-CRANK_MASS, ROD_MASS, SLIDER_MASS, CRANK_INERTIA, ROD_INERTIA = 0.038, 0.038, 0.076, 7.4e-5, 5.9e-4
+STOP = 0.03
 #: Part of its drift that a joint of pymunk keeps in a second, as in the ratchet.
 CORRECTION = 1e-100
-
-
-def slider_crank() -> Mechanism:
-    """The mechanism of docs/examples/gallery/slider_crank_clearance.py, without bounce."""
-    model = example("slider_crank_clearance")
-    mechanism: Mechanism = model.build(SimpleNamespace(**vars(model.values()) | {"restitution": 0.0}))
-    return mechanism
 
 
 def read(simulation: Simulation) -> Vector:
@@ -33,39 +34,8 @@ def read(simulation: Simulation) -> Vector:
     return np.array([found["angle"], found["slider"]])
 
 
-class Plain:
+class Plain(Pin):
     """Equations in the angles of crank and rod [rad] and the slider's place [m], for scipy."""
-
-    start = np.array([0.0, 0.0, CRANK + ROD, SPEED, -SPEED / 2, 0.0])
-
-    def row(self, y: Vector) -> tuple[float, Vector, float]:
-        """Gap [m], its derivative by the coordinates (3,), and what of its second derivative rates make [m/s2]."""
-        theta, phi, x = y[:3]
-        out = np.array([x, 0.0]) - CRANK * unit(theta) - ROD * unit(phi)
-        across = np.array(
-            [[CRANK * np.sin(theta), ROD * np.sin(phi), 1.0], [-CRANK * np.cos(theta), -ROD * np.cos(phi), 0.0]]
-        )
-        distance = float(np.hypot(*out)) or 1e-300  # in the middle of the hole, where no direction is needed
-        normal, speed = out / distance, across @ y[3:]
-        turning = CRANK * unit(theta) * y[3] ** 2 + ROD * unit(phi) * y[4] ** 2
-        bend = (speed @ speed - (normal @ speed) ** 2) / distance
-        return CLEARANCE - distance, -normal @ across, -float(normal @ turning + bend)
-
-    def free(self, y: Vector) -> tuple[Vector, Vector]:
-        """Accelerations of flight (3,), and the inverse of the mass matrix (3, 3)."""
-        theta, phi = y[:2]
-        both = ROD_MASS * CRANK * ROD / 2
-        mass = np.zeros((3, 3))
-        mass[0, 0] = CRANK_INERTIA + CRANK_MASS * CRANK**2 / 4 + ROD_MASS * CRANK**2
-        mass[0, 1] = mass[1, 0] = both * np.cos(theta - phi)
-        mass[1, 1], mass[2, 2] = ROD_INERTIA + ROD_MASS * ROD**2 / 4, SLIDER_MASS
-        swing = both * np.sin(theta - phi)
-        crank_weight = GRAVITY * (CRANK_MASS / 2 + ROD_MASS) * CRANK * np.cos(theta)
-        rod_weight = GRAVITY * ROD_MASS * ROD / 2 * np.cos(phi)
-        force = np.array([-swing * y[4] ** 2 - crank_weight, swing * y[3] ** 2 - rod_weight, 0.0])
-        inverse = np.linalg.inv(mass)
-        acceleration: Vector = inverse @ force
-        return acceleration, np.asarray(inverse, np.float64)
 
     def force(self, y: Vector) -> tuple[float, Vector]:
         """Force of the wall that keeps the gap closed [N], and the accelerations with it (3,)."""
@@ -145,7 +115,7 @@ def mujoco(steps: float) -> Run:
     </body>
   </worldbody>
   <tendon>
-    <spatial limited="true" range="0 {CLEARANCE}" solreflimit="{2 * step!r} 20" solimplimit="0.9999 0.9999 0.001">
+    <spatial limited="true" range="0 {PIN_PLAY}" solreflimit="{2 * step!r} 20" solimplimit="0.9999 0.9999 0.001">
       <site site="end"/><site site="pin"/>
     </spatial>
   </tendon>
@@ -177,7 +147,7 @@ def pymunk(steps: float) -> Run:
         pm.PivotJoint(ground, crank, (0.0, 0.0), (-CRANK / 2, 0.0)),
         pm.PivotJoint(crank, rod, (CRANK / 2, 0.0), (-ROD / 2, 0.0)),
         pm.GrooveJoint(ground, slider, (-1.0, 0.0), (1.0, 0.0), (0.0, 0.0)),
-        pm.SlideJoint(rod, slider, (ROD / 2, 0.0), (0.0, 0.0), 0.0, CLEARANCE),
+        pm.SlideJoint(rod, slider, (ROD / 2, 0.0), (0.0, 0.0), 0.0, PIN_PLAY),
     )
     for joint in space.constraints:
         joint.error_bias = CORRECTION
@@ -199,7 +169,7 @@ CASE = Case(
         "the end."
     ),
     programs=(
-        engine(slider_crank(), read, STOP),
+        engine(with_play(0.0, 1e-9), read, STOP),
         Program("MuJoCo", "limit of a tendon, Euler", (500, 1500, 5000, 15000, 50000), mujoco, "steps"),
         Program("scipy", "DOP853 with events, multiplier by hand", (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13), scipy),
         Program("pymunk", "slide joint, semi-implicit Euler", (500, 1500, 5000, 15000, 50000), pymunk, "steps"),

@@ -6,7 +6,10 @@ from ..case import Case
 from . import (
     andrews,
     bouncing_ball,
+    cam_follower,
     chain,
+    clearance_four_bar,
+    clearance_slider_crank,
     equal_slider_crank,
     geneva,
     governor,
@@ -28,7 +31,7 @@ CASES: dict[str, Case] = {
     module.CASE.name: module.CASE
     for module in (
         *(andrews, pendulum, chain, n_four_bar, equal_slider_crank, rockers, governor, trains, geneva),
-        *(bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker),
-        *(verge_foliot, graham, two_masses),
+        *(bouncing_ball, newtons_cradle, rocking_block, impacting_stick, painleve_rod, woodpecker, cam_follower),
+        *(clearance_slider_crank, clearance_four_bar, verge_foliot, graham, two_masses),
     )
 }
