@@ -1,4 +1,4 @@
-"""Derivatives by differences between motions that have the same events in the same order, extrapolated to a step of zero.
+"""Derivatives by differences between motions with the same events in the same order, extrapolated to a step of zero.
 
 Through impacts a motion is a smooth function of its beginning and of its parameters as long as events keep their order
 (what the saltation matrix says in closed form). Where however little changes the order, there is no derivative: the

@@ -229,8 +229,8 @@ CASE = Case(
         "equilibrium that is, give time and slip, integrated by scipy at 1e-12. Limits are found by bisection over "
         "`friction_solutions`, which tries all modes; like forces, they depend on no tolerance. "
         "`tangential_shock=True` is shown from where a and b are negative. At the end of the motion itself what would "
-        "stick is at its bound to the last digits, and the engine goes on by an impact. The papers could not be opened, so "
-        "that no digit of theirs is compared."
+        "stick is at its bound to the last digits, and the engine goes on by an impact. The papers could not be "
+        "opened: no digit of theirs is compared."
     ),
     drawings=drawings,
 )

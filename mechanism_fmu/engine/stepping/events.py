@@ -36,11 +36,11 @@ from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..contacts.binding import bind, is_free, is_outline, let_loose
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
-from ..contacts.handover import ends_in_hollow
+from ..contacts.handover import ends_in_hollow, left_to_go
 from ..contacts.inside import is_too_deep
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, falls_between, place_at, value_at
-from .meeting import cannot_meet, fastest_to_end, meets_before
+from .meeting import cannot_meet, fastest_to_end, meets_before, meets_since
 from .runge_kutta import try_step
 from .step_size import smallest_step
 
@@ -72,8 +72,35 @@ def first_event(block: Array) -> tuple[int, int, float]:
         return guard, subject, fraction
     lets_go, what, when = first_to_let_go(block, fraction)
     if when < fraction:
-        return lets_go, what, when
+        guard, subject, fraction = lets_go, what, when
+    if 0.0 < fraction <= 1.0:
+        return _met_before(block, guard, subject, fraction)
     return guard, subject, fraction
+
+
+@jit
+def _met_before(block: Array, guard: int, subject: int, fraction: float) -> tuple[int, int, float]:
+    """The first event, if outlines have not met between their last look and that: looks are not as close as events."""
+    keep_small()
+    for g in range(Sizes(block).contacts):
+        if is_watched(block, g) and stands_for_search(block, g):
+            met = meets_since(block, g, fraction)
+            if met < fraction:
+                guard, subject, fraction = codes.GUARD_GAP, g, met
+    return guard, subject, fraction
+
+
+@jit
+def comes_down_beside(block: Array, guard: int, subject: int, fraction: float) -> bool:
+    """Whether what has just struck hops, and comes down in this step beside the features that it struck.
+
+    Its gap is that of these features, and goes on behind their ends as if they did: nothing is struck there.
+    """
+    table = Contacts(block)
+    if guard != codes.GUARD_GAP or not is_outline(block, subject) or is_free(block, subject):
+        return False
+    hops = table.mode[subject] == codes.OPEN and table.touching[subject] != 0
+    return bool(hops and left_to_go(block, place_at(block, fraction), subject)[0] < -MARGIN)
 
 
 @jit

@@ -68,10 +68,7 @@ def meets_before(block: Array, number: int, after: float) -> float:
         look_across(block, now > 0.0 and look_at.next[number, 0] < most * closest)
         value = value_at(block, number, now)[0] - GAP_NOISE
         if value <= 0.0 and now > 0.0:
-            before = look_at.next[number, 1]
-            above = look_at.next[number, 0]
-            found = falls_between(block, number, before, above, now, value, GAP_NOISE, GAP_NOISE / most)
-            found = _before_crossing(block, number, found, GAP_NOISE / most)
+            found = _since_last_look(block, number, now, value)
             break
         look_at.next[number, 0] = value
         look_at.next[number, 1] = now
@@ -84,6 +81,41 @@ def meets_before(block: Array, number: int, after: float) -> float:
     look_no_deeper(block, 0.0)
     look_across(block, False)
     return found
+
+
+@jit
+def meets_since(block: Array, number: int, end: float) -> float:
+    """Where the distance of two outlines came down to zero since the last look, if it is below at `end`; 2.0 if not.
+
+    The next look is due later, but something else happens at `end`, and ends the step there.
+    """
+    keep_small()
+    look_at = Watch(block)
+    most = look_at.most[number]
+    above, before = look_at.next[number, 0], look_at.next[number, 1]
+    if not before < end < look_at.reached[number] or above > most * (end - before):
+        return 2.0
+    closest = finest(block, guard_of(block, number)[1], most)
+    look_no_deeper(block, most * closest)
+    look_across(block, above < most * closest)
+    value = value_at(block, number, end)[0] - GAP_NOISE
+    found = 2.0
+    if value <= 0.0:
+        found = _since_last_look(block, number, end, value)
+    look_no_deeper(block, 0.0)
+    look_across(block, False)
+    return found
+
+
+@jit
+def _since_last_look(block: Array, number: int, after: float, value: float) -> float:
+    """Where a distance came down to zero between the last look and `after`, where it is `value`."""
+    keep_small()
+    look_at = Watch(block)
+    close = GAP_NOISE / look_at.most[number]
+    above, before = look_at.next[number, 0], look_at.next[number, 1]
+    found = falls_between(block, number, before, above, after, value, GAP_NOISE, close)
+    return _before_crossing(block, number, found, close)
 
 
 @jit

@@ -22,7 +22,7 @@ from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
-from .events import first_event, refine
+from .events import comes_down_beside, first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
 from .passing import NEARER, PASSED, ahead, pass_over, passes
@@ -117,7 +117,12 @@ def take_step(block: Array) -> int:
         _refuse(block, wanted, method)
         is_one_inside(block)
         return status.PENETRATED
-    if guard != codes.GUARD_NONE:
+    hops = 0.5 * fraction * step > smallest_step(start) and comes_down_beside(block, guard, subject, fraction)
+    if hops:  # at the top of its hop it is let loose, and what is below is looked for
+        guard = codes.GUARD_NONE
+        subject = codes.NONE
+        fraction *= 0.5
+    if guard != codes.GUARD_NONE or hops:
         step *= fraction
         if step > smallest_step(start):
             step = _end_at_event(block, guard, subject, start, step)
