@@ -1,4 +1,4 @@
-"""What hops on an outline and past the end of a feature strikes nothing there: a feature goes no farther than its end."""
+"""What hops on an outline and past the end of a feature strikes nothing there: no feature goes farther than its end."""
 
 import math
 
