@@ -91,7 +91,7 @@ def slopes(
     return Slopes(
         np.column_stack([column.best for column in columns]),
         np.column_stack([column.error for column in columns]),
-        tuple("" if column.rows else column.change for column in columns),
+        tuple(column.why_none for column in columns),
         np.array([column.step * _LESS for column in columns]),
     )
 
@@ -121,6 +121,10 @@ class _Column:
         self.rows.clear()
         self.best, self.error = np.full_like(self.middle, np.nan), np.full_like(self.middle, np.inf)
 
+    @property
+    def why_none(self) -> str:
+        return "" if self.rows else self.change or "its limits leave no room for a step"
+
     def ends(self) -> list[float]:
         return [self.x + side * self.step for side in self.sides]
 
@@ -129,6 +133,7 @@ class _Column:
         self.change = next((one.change for one in samples if one.change), self.change)
         ends = [one.values for one in samples if one.values is not None and not one.change]
         if len(ends) < len(samples):
+            self.change = self.change or "beside it there is no value"
             self._forget()
         elif len(ends) == 2:
             self._extrapolate((ends[0] - ends[1]) / (2.0 * self.step), _LESS * _LESS)

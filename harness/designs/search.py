@@ -253,9 +253,9 @@ def _descend(optimum: Optimum, history: History, real: Sequence[Axis]) -> bool:
     start = best_of(optimum, history)
     if start.result.failure is not None:
         return False
-    landscape = Landscape(optimum, real, start.design.values, lambda points: _all_of(history, points))
     fractions = np.array([axis.fraction(float(start.design.values[axis.name])) for axis in real])
     try:
+        landscape = Landscape(optimum, real, start.design.values, lambda points: _all_of(history, points))
         optimize.minimize(
             landscape.objective,
             fractions,

@@ -34,6 +34,8 @@ _KINDS = (".csv", ".json")
 _FOR_EACH = 12
 #: A quantity that changes by less than this part of itself for one of a variable does not depend on it [1].
 _NOTHING = 1e-10
+#: Nor does one whose change is less than its error, if that is less than this part of it; else it is not known [1].
+_KNOWN = 1e-6
 
 
 @dataclass(frozen=True)
@@ -169,8 +171,9 @@ def _show(found: Gradient, description: Description, by: Sequence[str]) -> bool:
 
 
 def _depends(found: Gradient, row: int, k: int) -> bool:
-    change = abs(found.matrix[row, k]) * (abs(found.values[k]) or 1.0)
-    return bool(change > _NOTHING * abs(found.middle[row]) and abs(found.matrix[row, k]) > found.errors[row, k])
+    size, scale = abs(found.middle[row]), abs(found.values[k]) or 1.0
+    change, error = abs(found.matrix[row, k]) * scale, found.errors[row, k] * scale
+    return bool(change > _NOTHING * size and (change > error or error > _KNOWN * size))
 
 
 def _relative(found: Gradient, row: int, k: int) -> float:
