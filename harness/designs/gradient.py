@@ -21,8 +21,8 @@ Running = Callable[[Sequence[Mapping[str, Value]]], Sequence[Result]]
 
 #: Variables of the integration: what they change is its error.
 _OF_INTEGRATION = ("baumgarte_alpha", "baumgarte_beta", "relative_tolerance")
-#: What steps of a variable are shares of where that is 0, in its unit.
-_OF_ZERO = 1e-2
+#: What steps of a variable are shares of where that is 0, in its unit, and of one without a unit [1].
+_OF_ZERO, _OF_NO_UNIT = 1e-2, 1.0
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,8 @@ class Free:
         """
         low = -np.inf if variable.minimum is None else float(variable.minimum)
         high = np.inf if variable.maximum is None else float(variable.maximum)
-        return cls(variable.name, value, low, high, abs(value) or _OF_ZERO)
+        of_zero = _OF_NO_UNIT if variable.unit in ("", "1") else _OF_ZERO
+        return cls(variable.name, value, low, high, abs(value) or of_zero)
 
 
 def smooth(description: Description) -> list[Variable]:

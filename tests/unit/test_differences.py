@@ -68,6 +68,13 @@ def test_a_constant_has_the_derivative_0_exactly() -> None:
     assert (found.matrix[0, 0], found.errors[0, 0]) == (0.0, 0.0)
 
 
+def test_nothing_is_known_better_than_to_rounding() -> None:
+    """The differences of a line may all be the same by chance."""
+    found = of_one(lambda x: 0.25 + x, 0.5)
+    assert found.matrix[0, 0] == pytest.approx(1.0, abs=1e-13)
+    assert 1e-14 < found.errors[0, 0] < 1e-12
+
+
 def test_where_far_steps_change_events_only_the_others_are_extrapolated() -> None:
     """Beyond 1e-3 there is another branch; were its values used, the derivative would be wrong by far."""
 
@@ -92,6 +99,20 @@ def test_where_every_step_changes_events_there_is_none_and_it_is_named() -> None
     assert math.isinf(found.errors[0, 0])
     assert found.changes == ("it misses",)
     assert found.within[0] <= 2.1e-7
+
+
+def test_at_a_limit_the_first_step_must_keep_the_events() -> None:
+    """With a restitution of less than 1e-5, nothing bounces that the engine counts: there the motion is flat."""
+    asked = []
+
+    def bounce(x: float) -> float:
+        asked.append(x)
+        return x if x > 1e-5 else 0.0
+
+    found = of_one(bounce, 0.0, lambda x: "it bounces" if x > 1e-5 else "", low=0.0)
+    assert math.isnan(found.matrix[0, 0])
+    assert found.changes == ("it bounces",)
+    assert found.within[0] == max(asked) == 4e-3
 
 
 def test_what_has_no_value_beside_it_has_no_derivative() -> None:
