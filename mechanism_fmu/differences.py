@@ -125,6 +125,8 @@ class _Column:
 
     @property
     def known_within(self) -> Array:
+        if not self.rows:
+            return self.error
         largest = self.step * _LESS ** len(self.rows)
         rounding = np.where(self.best == 0.0, 0.0, np.finfo(np.float64).eps * np.abs(self.middle) / largest)
         return np.maximum(self.error, rounding)
