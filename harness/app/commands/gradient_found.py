@@ -179,7 +179,7 @@ def _show(found: Gradient, description: Description, by: Sequence[str]) -> bool:
         unit = "" if unit in ("", "1") else f" {unit}"
         said = (
             f"No derivatives by {name}: within {found.within[k]:.1e}{unit} of {found.values[k]:.9g}{unit} the events "
-            f"change: {change}. Choose a value beside it; or an earlier --stop-time, if that is after what is asked for."
+            f"change: {change}. Choose a value beside it; or, if what is asked comes first, an earlier --stop-time."
         )
         missing |= name in by
         (show_error if name in by else show_note)(said)
