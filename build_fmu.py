@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from enum import StrEnum
+from os.path import isfile
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Annotated, NoReturn
@@ -204,7 +205,7 @@ def _require(model: str) -> None:
         return
     asked = f"There is no model {model!r}" if model else "Say which model to build"
     names = ", ".join(models.available())
-    example = f"{model}.py" if model and Path(f"{model}.py").is_file() else "my_mechanism.py"
+    example = f"{model}.py" if model and isfile(f"{model}.py") else "my_mechanism.py"
     _refuse(f"{asked}; there are: {names}. For a mechanism of your own, give its file, e.g. {example}.")
 
 

@@ -2,7 +2,8 @@
 
 Through impacts a motion is a smooth function of its beginning and of its parameters as long as events keep their order
 (what the saltation matrix says in closed form). Where however little changes the order, there is no derivative: the
-motion grazes.
+motion grazes. At a limit, as where restitution or friction is 0, the first step must keep the order: with less of it,
+bounces are slower than those that the engine counts, and its motion is flat there.
 
 Source: C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
 """
@@ -46,7 +47,7 @@ class Slopes:
 
     Attributes:
         matrix: d quantity / d variable, shape (quantities, variables) [their units]; not a number where there is none.
-        errors: estimated from the extrapolation, the same shape.
+        errors: estimated from the extrapolation, at least rounding over the largest step, the same shape.
         changes: of each variable, why there is none, or "".
         within: of each variable, how little it was moved at last [its unit].
     """
@@ -78,20 +79,20 @@ def slopes(
         low: limits of the variables, the same shape; None: none.
         high: likewise.
         levels: how many steps are extrapolated.
-        least: step over the scale [1] within which events must keep their order.
+        least: step over the scale [1] within which events must keep their order; at a limit, the first step.
     """
     down = np.full_like(x, np.inf) if low is None else x - low
     up = np.full_like(x, np.inf) if high is None else high - x
     columns = [_Column(k, middle, float(x[k]), float(scales[k]), float(down[k]), float(up[k])) for k in range(len(x))]
-    while asked := [column for column in columns if len(column.rows) < levels and column.step > least * column.scale]:
+    while asked := [column for column in columns if column.goes_on(levels, least)]:
         points = [_moved(x, column.place, end) for column in asked for end in column.ends()]
         samples = iter(sample(points))
         for column in asked:
             column.take([next(samples) for _ in column.ends()])
     return Slopes(
         np.column_stack([column.best for column in columns]),
-        np.column_stack([column.error for column in columns]),
-        tuple("" if column.rows else column.change for column in columns),
+        np.column_stack([column.known_within for column in columns]),
+        tuple(column.why_none for column in columns),
         np.array([column.step * _LESS for column in columns]),
     )
 
@@ -109,7 +110,8 @@ class _Column:
         self.place, self.middle, self.x, self.scale = place, middle, x, scale
         step = _FIRST * scale
         self.sides: tuple[float, ...] = (1.0, -1.0)
-        if min(down, up) < step:  # at a limit
+        self.at_limit = min(down, up) == 0.0
+        if min(down, up) < step:
             self.sides = (1.0,) if up >= down else (-1.0,)
             step = min(step, max(up, down))
         self.step = step
@@ -121,6 +123,23 @@ class _Column:
         self.rows.clear()
         self.best, self.error = np.full_like(self.middle, np.nan), np.full_like(self.middle, np.inf)
 
+    @property
+    def known_within(self) -> Array:
+        if not self.rows:
+            return self.error
+        largest = self.step * _LESS ** len(self.rows)
+        rounding = np.where(self.best == 0.0, 0.0, np.finfo(np.float64).eps * np.abs(self.middle) / largest)
+        return np.maximum(self.error, rounding)
+
+    def goes_on(self, levels: int, least: float) -> bool:
+        """Whether there is to be another row, of so many, with a step over the scale that is more than the least."""
+        given_up = self.at_limit and bool(self.change)
+        return not given_up and len(self.rows) < levels and self.step > least * self.scale
+
+    @property
+    def why_none(self) -> str:
+        return "" if self.rows else self.change or "its limits leave no room for a step"
+
     def ends(self) -> list[float]:
         return [self.x + side * self.step for side in self.sides]
 
@@ -129,6 +148,7 @@ class _Column:
         self.change = next((one.change for one in samples if one.change), self.change)
         ends = [one.values for one in samples if one.values is not None and not one.change]
         if len(ends) < len(samples):
+            self.change = self.change or "beside it there is no value"
             self._forget()
         elif len(ends) == 2:
             self._extrapolate((ends[0] - ends[1]) / (2.0 * self.step), _LESS * _LESS)

@@ -156,7 +156,13 @@ def gradient(
     settings: Annotated[list[str] | None, settings_option("Value of a parameter or input. Once for each.")] = None,
     stop_time: Annotated[str | None, quantity_option("End of the run; the model's unless given.")] = None,
     step: Annotated[str | None, quantity_option("Communication step; the model's unless given.")] = None,
-    trust: Trust = False,
+    trust: Annotated[
+        bool,
+        typer.Option(
+            "--trust",
+            help="Run the Python sources of an FMU that no build of yours has made in this process, which is faster.",
+        ),
+    ] = False,
     output: Annotated[Path | None, file_option("FILE.csv|FILE.json", "none", "What is found, to write.")] = None,
 ) -> None:
     """Say how quantities of a run change with parameters and inputs: derivatives, through impacts.

@@ -21,8 +21,8 @@ Running = Callable[[Sequence[Mapping[str, Value]]], Sequence[Result]]
 
 #: Variables of the integration: what they change is its error.
 _OF_INTEGRATION = ("baumgarte_alpha", "baumgarte_beta", "relative_tolerance")
-#: What steps of a variable are shares of where that is 0, in its unit.
-_OF_ZERO = 1e-2
+#: What steps of a variable are shares of where that is 0, in its unit, and of one without a unit [1].
+_OF_ZERO, _OF_NO_UNIT = 1e-2, 1.0
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,8 @@ class Free:
         """
         low = -np.inf if variable.minimum is None else float(variable.minimum)
         high = np.inf if variable.maximum is None else float(variable.maximum)
-        return cls(variable.name, value, low, high, abs(value) or _OF_ZERO)
+        of_zero = _OF_NO_UNIT if variable.unit in ("", "1") else _OF_ZERO
+        return cls(variable.name, value, low, high, abs(value) or of_zero)
 
 
 def smooth(description: Description) -> list[Variable]:
@@ -144,10 +145,8 @@ def gradient(
         raise UsageError(f"The design has no {missing}, as where there is no impact, and so no derivative of it.")
 
     def sample(points: Sequence[Array]) -> list[Sample]:
-        return [
-            Sample(_numbers(result, places), _change(here, result, recorded))
-            for result in run(list(map(design, points)))
-        ]
+        results = run(list(map(design, points)))
+        return [Sample(_numbers(result, places), _change(here, result, recorded, places)) for result in results]
 
     low, high = (np.array([getattr(one, name) for one in free]) for name in ("low", "high"))
     found = slopes(sample, middle, x, np.array([one.scale for one in free]), low=low, high=high, levels=levels)
@@ -160,11 +159,12 @@ def _numbers(result: Result, places: Sequence[int]) -> Array | None:
     return None if None in values else np.array([float(value) for value in values if value is not None])
 
 
-def _change(here: Result, beside: Result, recorded: Sequence[Quantity]) -> str:
-    """In which count, switch or contact a design beside differs, in words; "" if in none."""
+def _change(here: Result, beside: Result, recorded: Sequence[Quantity], places: Sequence[int]) -> str:
+    """In which count, switch or contact a design beside differs, or what it has not, in words; "" if in nothing."""
     if beside.failure is not None:
         return f"on one side it fails: {beside.failure}"
     for one, value, other in zip(recorded, here.values, beside.values, strict=True):
         if one.type != "Real" and value != other:
             return f"{one.column} is {value}, but beside it {other}"
-    return ""
+    without = next((recorded[place].column for place in places if beside.values[place] is None), None)
+    return "" if without is None else f"beside it there is no {without}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -95,7 +96,7 @@ class Landscape:
 
     def _value(self, result: Result, quantity: Any) -> float:
         value = result.values[self._places[quantity]]
-        if value is None:
+        if value is None or math.isnan(float(value)):
             raise NoGradientError
         return float(value)
 

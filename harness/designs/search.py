@@ -244,7 +244,7 @@ def _nelder_mead(optimum: Optimum, history: History, real: Sequence[Axis]) -> No
 
 
 def _descend(optimum: Optimum, history: History, real: Sequence[Axis]) -> bool:
-    """Refine the Real variables of the best design by gradients; whether there were any, as far as it went.
+    """Refine the Real variables of the best design by gradients; whether there were any, and it came to an end.
 
     D. Kraft, A software package for sequential quadratic programming, DFVLR-FB 88-28 (1988), by scipy.
     """
@@ -253,10 +253,10 @@ def _descend(optimum: Optimum, history: History, real: Sequence[Axis]) -> bool:
     start = best_of(optimum, history)
     if start.result.failure is not None:
         return False
-    landscape = Landscape(optimum, real, start.design.values, lambda points: _all_of(history, points))
     fractions = np.array([axis.fraction(float(start.design.values[axis.name])) for axis in real])
     try:
-        optimize.minimize(
+        landscape = Landscape(optimum, real, start.design.values, lambda points: _all_of(history, points))
+        outcome = optimize.minimize(
             landscape.objective,
             fractions,
             method="SLSQP",
@@ -267,7 +267,7 @@ def _descend(optimum: Optimum, history: History, real: Sequence[Axis]) -> bool:
         )
     except NoGradientError:
         return False
-    return True
+    return bool(outcome.success)
 
 
 def _all_of(history: History, points: Sequence[Mapping[str, Value]]) -> list[Result]:

@@ -41,6 +41,7 @@ COMMANDS = [
     ["build"],
     ["cycle"],
     ["demo"],
+    ["gradient"],
     ["identify"],
     ["identify", "impacts"],
     ["ked"],

@@ -74,6 +74,8 @@ def test_so_it_is_by_every_command(command: str, damage: str, tmp_path: Path, mo
         "machine import",
         "sweep",
         "optimise",
+        "cycle",
+        "gradient",
         "study",
         "build",
     ],
@@ -88,7 +90,9 @@ def test_a_name_that_no_file_can_have_is_no_file(
         (tmp_path / "file.toml").write_text(f'[fmu]\nfile = "{name}.fmu"\n')
         result = invoked(command, "file.toml")
     else:
-        more = ["ratchet", "--fmu"] if command == "study" else []
+        more = {"study": ["ratchet", "--fmu"], "gradient": ["--of", "end.x"], "cycle": ["--section", "x"]}.get(
+            command, []
+        )
         result = invoked(*command.split(), *more, f"{name}.py" if command == "build" else name)
     assert result.exit_code == 2
     assert "xx" in result.stderr or "x/x" in result.stderr

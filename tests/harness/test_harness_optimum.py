@@ -33,7 +33,7 @@ def optimum_of(
 ) -> Optimum:
     constraints = () if sums == (None, None) else (Constraint(SUM, *sums),)
     method = MIXED if N in axes else CONTINUOUS
-    return Optimum("Valley", TASK, axes, Goal(FAR, largest, constraints), method, count, 1, None)
+    return Optimum("Valley", TASK, axes, Goal(FAR, largest, constraints), method, count, 1, False, (), None)
 
 
 def store_of(optimum: Optimum, folder: Path) -> Store:

@@ -78,6 +78,20 @@ def test_what_has_whole_numbers_is_mixed(tmp_path: Path) -> None:
     assert read(tmp_path, text).method == MIXED
 
 
+def test_along_gradients_what_tells_the_events_is_recorded_too(tmp_path: Path) -> None:
+    """Counts and switches, at the end; the identity of files without gradient is what it was."""
+    plain, optimum = (
+        read(tmp_path, GOOD.replace("count = 100", f"count = 100\n{more}")) for more in ("", "gradient = true")
+    )
+    assert (plain.gradient, plain.events) == (False, ())
+    assert "gradient" not in plain.how[1]
+    assert optimum.gradient
+    assert optimum.how[1]["gradient"] is True
+    assert {one.type for one in optimum.events} == {"Integer", "Boolean"}
+    assert "end.impact_count" not in [one.column for one in optimum.events]  # the constraint has it
+    assert optimum.task.quantities == (*plain.task.quantities, *optimum.events)
+
+
 MISTAKES = {
     "two goals": (
         "count = 100",
@@ -140,7 +154,17 @@ MISTAKES = {
     "method for others": (
         "[vary.restitution]\nfrom = 0\nto = 0.5",
         "[vary.gear]\nvalues = [1, 2]\n[optimise.x]",
-        "15: optimise.x: is not known. There are: minimise, maximise, method, count, seed",
+        "15: optimise.x: is not known. There are: minimise, maximise, method, count, seed, gradient",
+    ),
+    "gradients without a variable for them": (
+        GOOD[GOOD.index("count = 100") : GOOD.index("\n\n[constraint")],
+        "count = 100\ngradient = true\n\n[vary.tooth_count]\nfrom = 10\nto = 25",
+        "7: optimise.gradient: is for Real variables with from and to, of which there is none",
+    ),
+    "gradient as a text": (
+        "count = 100",
+        'count = 100\ngradient = "yes"',
+        "7: optimise.gradient: is 'yes', but must be true or false",
     ),
     "sobol points that are not balanced": (
         "count = 64",

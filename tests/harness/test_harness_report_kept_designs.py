@@ -98,7 +98,16 @@ def test_kept_page_of_an_optimum(largest: bool) -> None:
         (Constraint(ANGLE, 0.5, 1.7), Constraint(WIDE, None, 6.0)) if largest else (Constraint(ANGLE, 0.5, None),)
     )
     optimum = Optimum(
-        "Valley", replace(TASK, quantities=quantities), axes, Goal(SQUARE, largest, constraints), "CMA", 6, 7, None
+        "Valley",
+        replace(TASK, quantities=quantities),
+        axes,
+        Goal(SQUARE, largest, constraints),
+        "CMA",
+        6,
+        7,
+        False,
+        (),
+        None,
     )
     best = Best(designs[4], found[4], not largest)
     near = Sensitivity(

@@ -12,6 +12,8 @@ import numpy as np
 import pandas as pd
 from rich.markup import escape
 
+from mechanism_fmu.fmu.disk.user_cache import was_built_here
+
 from ...designs.gradient import Free, Gradient, events_of, gradient, smooth
 from ...designs.sweep import Progress
 from ...designs.task import Design, Quantity, Result, Task, UnknownQuantityError, column, with_slenderness
@@ -34,6 +36,8 @@ _KINDS = (".csv", ".json")
 _FOR_EACH = 12
 #: A quantity that changes by less than this part of itself for one of a variable does not depend on it [1].
 _NOTHING = 1e-10
+#: Nor does one whose change is less than its error, if that is less than this part of it; else it is not known [1].
+_KNOWN = 1e-6
 
 
 @dataclass(frozen=True)
@@ -64,7 +68,7 @@ def find(asked: Asked, output: Path | None) -> int:
     wanted = Source(Path(asked.model)) if is_fmu else Source(model=asked.model)
     with fmu_file(wanted) as path, open_fmu(path) as fmu:
         quantities, free, task = _task(asked, fmu.description)
-        runners = Runners(fast=True, trust=asked.trust or not is_fmu)
+        runners = _runners(path, asked.trust or not is_fmu)
         with executor_of(fmu, task, runners) as executor, DesignsBar(1 + _FOR_EACH * len(free)) as bar:
             found = gradient(quantities, task.quantities, free, {}, _Runner(executor, bar))
         give(as_data(found))
@@ -88,6 +92,19 @@ class _Runner:
         self._done += len(designs)
         self._bar.show(Progress(self._done, 0, self._done, 0))
         return [found[design.number] for design in designs]
+
+
+def _runners(path: Path, trust: bool) -> Runners:
+    """In one call, if the FMU has the sources for it and these may run here; else in processes, by the FMU."""
+    if not trust and not was_built_here(path):
+        return Runners()
+    from ...designs.by_batch import require_batch
+
+    try:
+        require_batch(path)
+    except UsageError:
+        return Runners()
+    return Runners(fast=True, trust=trust)
 
 
 def _task(asked: Asked, description: Description) -> tuple[list[Quantity], list[Free], Task]:
@@ -158,10 +175,11 @@ def _show(found: Gradient, description: Description, by: Sequence[str]) -> bool:
     for k, change in enumerate(found.changes):
         if not change:
             continue
-        name, unit = found.names[k], description.variable(found.names[k]).unit or "1"
+        name, unit = found.names[k], description.variable(found.names[k]).unit
+        unit = "" if unit in ("", "1") else f" {unit}"
         said = (
-            f"No derivatives by {name}: within {found.within[k]:.1e} {unit} of {found.values[k]:.9g} {unit} the events "
-            f"change: {change}. Choose a value beside it."
+            f"No derivatives by {name}: within {found.within[k]:.1e}{unit} of {found.values[k]:.9g}{unit} the events "
+            f"change: {change}. Choose a value beside it; or, if what is asked comes first, an earlier --stop-time."
         )
         missing |= name in by
         (show_error if name in by else show_note)(said)
@@ -169,8 +187,9 @@ def _show(found: Gradient, description: Description, by: Sequence[str]) -> bool:
 
 
 def _depends(found: Gradient, row: int, k: int) -> bool:
-    change = abs(found.matrix[row, k]) * (abs(found.values[k]) or 1.0)
-    return bool(change > _NOTHING * abs(found.middle[row]) and abs(found.matrix[row, k]) > found.errors[row, k])
+    size, scale = abs(found.middle[row]), abs(found.values[k]) or 1.0
+    change, error = abs(found.matrix[row, k]) * scale, found.errors[row, k] * scale
+    return bool(change > _NOTHING * size and (change > error or error > _KNOWN * size))
 
 
 def _relative(found: Gradient, row: int, k: int) -> float:
