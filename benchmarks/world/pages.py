@@ -128,8 +128,10 @@ def _works(works: Sequence[Work]) -> str:
 
 def _model(case: Case) -> str:
     if isinstance(case.model, Path):
-        text = case.model.read_text(encoding="utf-8")
         where = case.model.relative_to(_ROOT).as_posix()
+        if where.startswith("models/"):  # ready-made ones have pages of their own
+            return f"The ready-made one: [`{where}`](../../{where})."
+        text = case.model.read_text(encoding="utf-8")
     else:
         text = inspect.getsource(case.model)
         where = f"benchmarks/world/cases/{case.name}.py"
