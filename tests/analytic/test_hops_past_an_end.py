@@ -32,16 +32,27 @@ def hops(until: float) -> int:
     return count
 
 
+def made(plate: str, tip: str, tolerance: float, left: float) -> Mechanism:
+    """It comes to the end of the flat, x = 0, a time `left` [s] before its hops would end there."""
+    ball = Body("ball", 1.0, 1.0, (-SPEED * (REST - left), HEIGHT, 0.0), start_rate=(SPEED, 0.0, 0.0))
+    contact = OutlineContact("c", ball, GROUND, outline_i=TIPS[tip], outline_j=PLATES[plate], restitution=BOUNCE)
+    return Mechanism((ball,), contacts=(contact,), gravity=(0.0, -GRAVITY), settings=Settings(tolerance))
+
+
 @pytest.mark.parametrize("tip", TIPS)
 @pytest.mark.parametrize("plate", PLATES)
 @pytest.mark.parametrize("tolerance", [1e-7, 1e-12])
 @pytest.mark.parametrize("left", [3e-3, 1e-3, 6e-4, 2e-4])
 def test_hops_end_where_the_flat_does(plate: str, tip: str, tolerance: float, left: float) -> None:
-    """It comes to the end of the flat a time `left` before its hops would end there."""
-    start = -SPEED * (REST - left)
-    ball = Body("ball", 1.0, 1.0, (start, HEIGHT, 0.0), start_rate=(SPEED, 0.0, 0.0))
-    contact = OutlineContact("c", ball, GROUND, outline_i=TIPS[tip], outline_j=PLATES[plate], restitution=BOUNCE)
-    made = Mechanism((ball,), contacts=(contact,), gravity=(0.0, -GRAVITY), settings=Settings(tolerance))
-    times = [one.time for one in simulate(made, REST + 3e-3, step=0.01).impacts]
+    times = [one.time for one in simulate(made(plate, tip, tolerance, left), REST + 3e-3, step=0.01).impacts]
     assert len(times) == hops(REST - left)
     assert times[-1] < REST - left
+
+
+@pytest.mark.parametrize("plate", PLATES)
+def test_any_communication_step_gives_the_same_bits(plate: str) -> None:
+    coarse, fine = (
+        [one.time for one in simulate(made(plate, "disc", 1e-9, 1e-3), REST + 3e-3, step=step).impacts]
+        for step in (0.02, 3e-4)
+    )
+    assert coarse == fine
