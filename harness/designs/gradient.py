@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -23,6 +24,10 @@ Running = Callable[[Sequence[Mapping[str, Value]]], Sequence[Result]]
 _OF_INTEGRATION = ("baumgarte_alpha", "baumgarte_beta", "relative_tolerance")
 #: What steps of a variable are shares of where that is 0, in its unit, and of one without a unit [1].
 _OF_ZERO, _OF_NO_UNIT = 1e-2, 1.0
+
+
+class NoDerivativesError(UsageError):
+    """A design has none, because it fails or has not the quantity."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +133,7 @@ def gradient(
         levels: how many steps are extrapolated.
 
     Raises:
-        UsageError: the design itself fails, or has no such quantity.
+        NoDerivativesError: the design itself fails, or has no such quantity, or an infinite one.
     """
     x = np.array([one.value for one in free])
 
@@ -137,12 +142,11 @@ def gradient(
 
     (here,) = run([design(x)])
     if here.failure is not None:
-        raise UsageError(f"The design has no derivatives, because it fails: {here.failure}")
+        raise NoDerivativesError(f"The design has no derivatives, because it fails: {here.failure}")
     places = [recorded.index(one) for one in quantities]
     middle = _numbers(here, places)
     if middle is None:
-        missing = next(one.column for one, place in zip(quantities, places, strict=True) if here.values[place] is None)
-        raise UsageError(f"The design has no {missing}, as where there is no impact, and so no derivative of it.")
+        raise NoDerivativesError(f"The design has {_missing(here, recorded, places)}, and so no derivative of it.")
 
     def sample(points: Sequence[Array]) -> list[Sample]:
         results = run(list(map(design, points)))
@@ -156,7 +160,19 @@ def gradient(
 
 def _numbers(result: Result, places: Sequence[int]) -> Array | None:
     values = [result.values[place] for place in places]
-    return None if None in values else np.array([float(value) for value in values if value is not None])
+    numbers = np.array([math.nan if value is None else float(value) for value in values])
+    return numbers if np.isfinite(numbers).all() else None
+
+
+def _missing(result: Result, recorded: Sequence[Quantity], places: Sequence[int]) -> str:
+    """What of some quantities a design has not, in words; "" where it has all."""
+    for place in places:
+        value, name = result.values[place], recorded[place].column
+        if value is None:
+            return f"no {name}, as where there is no impact"
+        if not math.isfinite(float(value)):
+            return f"a {name} that is not finite ({value})"
+    return ""
 
 
 def _change(here: Result, beside: Result, recorded: Sequence[Quantity], places: Sequence[int]) -> str:
@@ -166,5 +182,5 @@ def _change(here: Result, beside: Result, recorded: Sequence[Quantity], places: 
     for one, value, other in zip(recorded, here.values, beside.values, strict=True):
         if one.type != "Real" and value != other:
             return f"{one.column} is {value}, but beside it {other}"
-    without = next((recorded[place].column for place in places if beside.values[place] is None), None)
-    return "" if without is None else f"beside it there is no {without}"
+    missing = _missing(beside, recorded, places)
+    return missing and f"beside it there is {missing}"

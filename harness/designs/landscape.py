@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import UsageError
 from ..fmu.description import Value
-from .gradient import Free, Gradient, Running, gradient
+from .gradient import Free, Gradient, NoDerivativesError, Running, gradient
 from .optimum_file import Constraint, Optimum
 from .task import Result
 from .variation import Axis
@@ -42,6 +41,7 @@ class Landscape:
         self._low: Array = np.array([axis.real(axis.low) for axis in real])
         self._high: Array = np.array([axis.real(axis.high) for axis in real])
         self._places = {one: place for place, one in enumerate(optimum.task.quantities)}
+        self._last: tuple[bytes, Result] | None = None  # objective and each constraint ask for the same one
         goal = optimum.goal
         self._smooth = [one for one in goal.quantities if one.type == "Real"]
         self._sign = -1.0 if goal.largest else 1.0
@@ -90,13 +90,17 @@ class Landscape:
         return np.minimum(np.maximum(inside, self._low), self._high)
 
     def _result(self, fractions: Array) -> Result:
-        moved = {axis.name: float(value) for axis, value in zip(self._real, self._values(fractions), strict=True)}
-        (result,) = self._run([{**self._start, **moved}])
-        return result
+        key = fractions.tobytes()
+        if self._last is None or self._last[0] != key:
+            values = self._values(fractions)
+            moved = {axis.name: float(value) for axis, value in zip(self._real, values, strict=True)}
+            (result,) = self._run([{**self._start, **moved}])
+            self._last = key, result
+        return self._last[1]
 
     def _value(self, result: Result, quantity: Any) -> float:
         value = result.values[self._places[quantity]]
-        if value is None or math.isnan(float(value)):
+        if value is None or not math.isfinite(float(value)):
             raise NoGradientError
         return float(value)
 
@@ -115,7 +119,7 @@ class Landscape:
         ]
         try:
             found = gradient(self._smooth, self._optimum.task.quantities, free, self._start, self._run, _LEVELS)
-        except UsageError:
+        except NoDerivativesError:
             raise NoGradientError from None
         if any(found.changes):
             raise NoGradientError

@@ -78,6 +78,20 @@ def test_a_shock_leads_on_however_the_end_is_met(tolerance: float) -> None:
     assert guards(simulation) == ["floor.shock"]
 
 
+@pytest.mark.parametrize("mass", [1e-3, 3e-7, 1e-8])
+def test_a_shock_stops_nothing_else_however_light(mass: float) -> None:
+    """A bead that slides 20 m away on the same floor goes on."""
+    made = rod(*START, FRICTION, 1e-7, tangential_shock=True)
+    bead = rigid_body("bead", (20.0, 0.0), mass=mass, inertia=mass * 1e-2, velocity=(2.0, 0.0))
+    slides = PointLineContact("bead_floor", bead.at(0.0, 0.0), FLOOR, closed=True, friction=0.1)
+    outputs = (Output("v", bead.x_rate, ""),)
+    both = replace(made, bodies=(*made.bodies, bead), contacts=(*made.contacts, slides), outputs=outputs)
+    simulation = Simulation(both)
+    simulation.advance(0.11)
+    assert "floor.shock" in guards(simulation)
+    assert simulation.read()["v"] == pytest.approx(2.0 - 0.1 * GRAVITY * 0.11, rel=1e-9)
+
+
 @pytest.mark.parametrize("friction", [0.15, 0.3])
 def test_pins_without_forces_are_named_and_stopped_by_a_shock(friction: float) -> None:
     """Pins thicker than the crank is long: friction outgrows what it is caused by, from 0.1405 m on."""

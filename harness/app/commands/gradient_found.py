@@ -118,6 +118,8 @@ def _task(asked: Asked, description: Description) -> tuple[list[Quantity], list[
             raise UsageError(f"--of: '{one.column}' is {one.type}, which has no derivatives; a Real quantity has.")
     fixed = start_values(asked.settings, description)
     variables = [_moved(name, description) for name in dict.fromkeys(asked.by)] or smooth(description)
+    if not variables:
+        raise UsageError(f"{description.model} has no Real parameter or input by which there could be derivatives.")
     free = [Free.of(variable, float(fixed.get(variable.name, variable.start or 0.0))) for variable in variables]
     stop = parse_time(asked.stop_time, "--stop-time", description)
     step = parse_time(asked.step, "--step", description)

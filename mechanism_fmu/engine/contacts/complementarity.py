@@ -33,8 +33,8 @@ from .trial import COUNT, FORCES, IMPULSES, KIND, SHOCK, excess, slip_change, tr
 
 #: An impulse may be missing this share of the largest one.
 _IMPULSE_SHARE = 1e-11
-#: And stick lack this share of what holds it, where no approach but friction calls for an impulse: motions end there
-#: where stick is at its bound (a stop is named from 1e-6 of that on, `stepping.step_size`), and drift is mended after.
+#: And stick may lack this share of its own impulse, where no approach but friction calls for an impulse: motions end
+#: there where stick is at its bound (a stop is named from 1e-6 of that on, `stepping.step_size`), and drift is mended.
 _SHOCK_SHARE = 1e-6
 _MOST_PIVOTS = 64
 #: Where events pile up, a force that lacks this part of its tolerance pulls.
@@ -228,13 +228,16 @@ def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
     spare = spare_row(block)
     tolerance = PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, active)
     if Strikes(block).problem[KIND] == IMPULSES:
-        share = _SHOCK_SHARE if Strikes(block).problem[SHOCK] == 1 else _IMPULSE_SHARE
-        tolerance = share * largest(multiplier, active)
+        tolerance = _IMPULSE_SHARE * largest(multiplier, active)
+    shock = Strikes(block).problem[KIND] == IMPULSES and Strikes(block).problem[SHOCK] == 1
     for k in range(table.slip.shape[0]):
         if table.free[k] != codes.FREE or not touches(block, k):
             continue
         if table.slip[k] == codes.STICKS:
-            if not hold(block, k) >= -tolerance:
+            lacks = tolerance
+            if shock:
+                lacks = max(lacks, _SHOCK_SHARE * abs(multiplier[table.row[k]]))
+            if not hold(block, k) >= -lacks:
                 return k
             left, rounding = slip_change(block, table.row[k])
             if abs(left) > rounding:  # rows that depend on each other contradict each other: a compromise

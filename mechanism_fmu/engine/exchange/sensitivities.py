@@ -14,11 +14,13 @@ from __future__ import annotations
 
 import math
 
+from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import LEVELS, Course, LinearSystem, Sensitivity
-from ...tables.parts import Ports
+from ...tables.parts import Forces, Ports
 from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_apart, keep_small
+from ..constraints.friction_rows import BRAKE
 from ..dynamics.linear_solve import KEEP
 from ..outputs import read_outputs
 from ..vectors import copy
@@ -47,7 +49,7 @@ def respond(block: Array) -> None:
     copy(now.y_end, table.states)
     copy(now.dy_end, table.rates)
     step, moved = _first_step(block)
-    if not moved:
+    if not moved and not _moves_brake(block):
         LinearSystem(block).kept[0] = KEEP
     for k in range(table.response.shape[0]):
         table.error[k] = math.inf
@@ -80,6 +82,18 @@ def _first_step(block: Array) -> tuple[float, bool]:
             step = min(step, _OF_STATES / abs(table.state_seed[k]))
             moved = True
     return step if step < math.inf else 1.0, moved
+
+
+@jit
+def _moves_brake(block: Array) -> bool:
+    """Whether an input that moves is the limit of a brake, at 0 of which there is no row of what it holds."""
+    ports = Ports(block)
+    element = Forces(block)
+    for k in range(ports.inputs.shape[0]):
+        of = ports.input_force[k]
+        if Sensitivity(block).input_seed[k] != 0.0 and of != codes.NONE and element.kind[of] == BRAKE:
+            return True
+    return False
 
 
 @jit
