@@ -33,14 +33,13 @@ def run(
         typer.Option("--all", help=f"What every other benchmark finds as well, in {longer.MINUTES} minutes in all."),
     ] = False,
     only: Annotated[
-        str | None, typer.Option("--part", help="Only parts in whose name this stands; of --all or not.")
+        str | None, typer.Option("--part", help="Only parts in whose name this stands, those of --all too.")
     ] = None,
     pages: Annotated[bool, typer.Option(help="Add to docs/project/numbers.csv and make numbers.md anew.")] = True,
 ) -> None:
     """Measure sizes, times, speed, deviations, limits and tests, in some three minutes, and keep them.
 
-    A part for which something is not installed is left out, and named at the end. The exit code is 1 when one has
-    failed.
+    A part for which something is not installed is left out, and named at the end. Where one fails, the exit code is 1.
     """
     parts = quick.parts() + (longer.parts() if everything or only else [])
     if only:
