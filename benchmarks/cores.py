@@ -185,12 +185,8 @@ def compare(run: Run, most: int, rounds: int) -> tuple[float, float]:
     return median(one), median(several)
 
 
-def main() -> None:
-    """Measure, and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rounds", type=int, default=5, help="in which one worker and several take turns")
-    parser.add_argument("--workers", type=int, default=processors(), help="how many several are")
-    asked = parser.parse_args()
+def measure(most: int, rounds: int) -> Iterator[tuple[str, float, float]]:
+    """Of each case: its name, and times by one worker and by several [s]; arguments as of `compare`."""
     with tempfile.TemporaryDirectory() as place:
         native, travels = Path(place, "native"), Path(place, "python")
         build = [sys.executable, "-m", "build_fmu", "ratchet", "-o"]
@@ -205,11 +201,20 @@ def main() -> None:
             f"sweep --fast, {_SWEEP} designs": lambda most: of_sweep(most, python, fast=True),
             f"optimise --fast, {_SEARCH} designs": lambda most: of_search(most, python, fast=True),
         }
-        print(f"{'case':40s}  1 worker  {asked.workers} workers  speed-up   [s]")
         for name, case in cases.items():
-            with case(asked.workers) as run:
-                one, several = compare(run, asked.workers, asked.rounds)
-            print(f"{name:40s} {one:8.3f} {several:10.3f} {one / several:9.2f}", flush=True)
+            with case(most) as run:
+                yield name, *compare(run, most, rounds)
+
+
+def main() -> None:
+    """Measure, and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=5, help="in which one worker and several take turns")
+    parser.add_argument("--workers", type=int, default=processors(), help="how many several are")
+    asked = parser.parse_args()
+    print(f"{'case':40s}  1 worker  {asked.workers} workers  speed-up   [s]")
+    for name, one, several in measure(asked.workers, asked.rounds):
+        print(f"{name:40s} {one:8.3f} {several:10.3f} {one / several:9.2f}", flush=True)
 
 
 if __name__ == "__main__":

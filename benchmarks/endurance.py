@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from ctypes import byref
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from types import TracebackType
@@ -24,6 +26,8 @@ from mechanism_fmu.fmu.native.package import build_native_fmu
 
 from . import impacts, rattling
 
+#: So often each is done.
+INSTANCES, STEPS, IMPACTS = 100_000, 10_000_000, 1_000_000
 _STEP = 1e-3
 _PERIOD = 8.0
 _HOLD = 20
@@ -171,31 +175,57 @@ def build(module: Any, folder: Path) -> BareHost:
     return BareHost(str(unzipped))
 
 
-def run(
-    instances: int = 100_000,
-    steps: int = 10_000_000,
-    impact_count: int = 1_000_000,
-) -> None:
-    """Report memory before and after, and what the runs have ended with; all else is an exception."""
-    out = Console(highlight=False)
+@dataclass(frozen=True)
+class Endured:
+    """What was done so many times in one process.
+
+    Attributes:
+        what: it was.
+        each: one of them, in a word.
+        count: how many.
+        before, after: memory of the process [bytes]; 0 where the system does not tell.
+        seconds: all of them took [s].
+        drift: of the energy, relative; None where that is not looked at.
+    """
+
+    what: str
+    each: str
+    count: int
+    before: int
+    after: int
+    seconds: float
+    drift: float | None
+
+
+def measure(instances: int = INSTANCES, steps: int = STEPS, impact_count: int = IMPACTS) -> Iterator[Endured]:
+    """Do all three, each so many times."""
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         ratchet, pawl = build(models.load("ratchet"), Path(folder)), build(rattling, Path(folder))
 
-        def report(what: str, operation: Callable[[int], object], count: int) -> None:
+        def repeat(what: str, each: str, operation: Callable[[int], float | None], count: int) -> Endured:
             operation(1000)  # all that is made once is made here
             before, began = memory(), perf_counter()
-            result = operation(count)
-            spent, after = perf_counter() - began, memory()
-            told = "" if result is None else f", drift of energy {result:.2g}"
-            out.print(
-                f"{count:>12,} {what}: {before / 1e6:.2f} MB before, {after / 1e6:.2f} MB after; "
-                f"{spent:.1f} s, {spent / count * 1e6:.2f} us each{told}",
-                soft_wrap=True,
-            )
+            drift = operation(count)
+            seconds = perf_counter() - began
+            return Endured(what, each, count, before, memory(), seconds, drift)
 
-        report("instances made, initialized, stepped and freed", lambda count: live_and_die(ratchet, count), instances)
-        report("steps of 1 ms of the ratchet that indexes", lambda count: index(ratchet, count), steps)
-        report("impacts of the pawl that rattles", lambda count: rattle(pawl, count), impact_count)
+        yield repeat(
+            "instances made, initialized, stepped and freed", "instance", partial(live_and_die, ratchet), instances
+        )
+        yield repeat("steps of 1 ms of the ratchet that indexes", "step", partial(index, ratchet), steps)
+        yield repeat("impacts of the pawl that rattles", "impact", partial(rattle, pawl), impact_count)
+
+
+def run(instances: int = INSTANCES, steps: int = STEPS, impact_count: int = IMPACTS) -> None:
+    """Report memory before and after, and what the runs have ended with; all else is an exception."""
+    out = Console(highlight=False)
+    for one in measure(instances, steps, impact_count):
+        told = "" if one.drift is None else f", drift of energy {one.drift:.2g}"
+        out.print(
+            f"{one.count:>12,} {one.what}: {one.before / 1e6:.2f} MB before, {one.after / 1e6:.2f} MB after; "
+            f"{one.seconds:.1f} s, {one.seconds / one.count * 1e6:.2f} us each{told}",
+            soft_wrap=True,
+        )
 
 
 if __name__ == "__main__":

@@ -30,11 +30,14 @@ from mechanism_fmu.model import (
 from mechanism_fmu.model.functions import cos, sin, tan
 from mechanism_fmu.simulation import Simulation
 
-_DAY = 86400.0
+#: Ticks of a day [1], and its seconds [s].
+DAY = 86400.0
 #: Ticks until the swing is steady, the time of one, and a communication step [s].
 _SETTLED, _TICK, _STEP = 100, 0.2, 60.0
 #: So many there must be, that a mean period is left when the swing is steady.
 _LEAST = 2 * _SETTLED
+#: Teeth and tolerances.
+CASES = ((15, 1e-9), (15, 1e-7), (30, 1e-7))
 
 
 def _polar(radius: float, angle: float) -> tuple[float, float]:
@@ -92,6 +95,11 @@ class Run(NamedTuple):
     period: float
     seconds: float
 
+    @property
+    def of_a_day(self) -> float:
+        """Processor time of as many ticks as a day has seconds [s]."""
+        return DAY * self.seconds / self.ticks
+
 
 def run(teeth: int, tolerance: float, ticks: int) -> Run:
     """Let it tick, and time it as a watchmaker does: by the passages of its lever through the middle.
@@ -121,14 +129,14 @@ def _passages(simulation: Simulation, until: float) -> tuple[float, float]:
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--ticks", type=int, default=int(_DAY), help="how many, about")
+    parser.add_argument("--ticks", type=int, default=int(DAY), help="how many, about")
     ticks = parser.parse_args().ticks
     if ticks < _LEAST:
         parser.error(f"--ticks {ticks}: the swing is steady after {_SETTLED}; give {_LEAST} or more.")
     fine = run(15, 1e-9, ticks)
-    for teeth, tolerance in ((15, 1e-9), (15, 1e-7), (30, 1e-7)):
+    for teeth, tolerance in CASES:
         found = fine if tolerance < 1e-8 else run(teeth, tolerance, ticks)
-        rate = f", rate beside that {_DAY * (found.period / fine.period - 1.0):+.4f} s a day" if teeth == 15 else ""
+        rate = f", rate beside that {DAY * (found.period / fine.period - 1.0):+.4f} s a day" if teeth == 15 else ""
         each = 1e6 * found.seconds / found.ticks
         print(f"{teeth} teeth, {tolerance:.0e}: {found.ticks} ticks in {found.seconds:.2f} s, {each:.0f} us each{rate}")
 

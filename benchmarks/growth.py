@@ -18,9 +18,9 @@ import json
 import math
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from statistics import median
@@ -46,7 +46,8 @@ from mechanism_fmu.tables.layout import field_of, pack
 from .timing import batch, in_turns, require_agreement
 
 LENGTH, MASS, GRAVITY = 0.1, 1.0, 9.81
-_SIZES = (5, 10, 20, 50, 100)
+#: So many bars have the chains.
+SIZES = (5, 10, 20, 50, 100)
 #: The two differ by less than this part of the largest acceleration.
 _WITHIN = 1e-9
 _CALLS = 2000
@@ -186,7 +187,7 @@ def landing(count: int) -> Mechanism:
 
 
 #: So many bodies have the motions of many.
-_LARGE = (50, 100, 200, 400)
+LARGE = (50, 100, 200, 400)
 #: What is timed besides, by name.
 _OTHERS: dict[str, Callable[[], Mechanism]] = {
     "planetary train, 3 planets": lambda: planetary(3),
@@ -363,6 +364,47 @@ def of_motion(mechanism: Mechanism, until: float, rounds: int) -> tuple[float, f
     return median(batch(once, 1) for _ in range(rounds)), written
 
 
+def others(rounds: int) -> Iterator[tuple[str, float]]:
+    """Names of the mechanisms besides, and the time of one acceleration of each [s], median of so many rounds."""
+    for name, made in _OTHERS.items():
+        timed, _ = accelerations(made())
+        yield name, median(timed() for _ in range(rounds))
+
+
+@dataclass(frozen=True)
+class Motions:
+    """The same motion of ever more bodies.
+
+    Attributes:
+        name: what moves.
+        times: processor time [s], by how many there are.
+        written: of the mechanism's block [MB], likewise.
+    """
+
+    name: str
+    times: dict[int, float]
+    written: dict[int, float]
+
+    @property
+    def exponent(self) -> float:
+        """The time grows as their number to this power."""
+        return exponent(self.times)
+
+
+def motions(rounds: int, counts: Sequence[int] = LARGE) -> Iterator[Motions]:
+    """Each of `_MOTIONS` with so many bodies, times as the median of so many rounds."""
+    for name, of_many, until in _MOTIONS:
+        found = {count: of_motion(of_many(count), until, rounds) for count in counts}
+        times, written = ({count: both[k] for count, both in found.items()} for k in (0, 1))
+        yield Motions(name, times, written)
+
+
+def exponent(times: Mapping[int, float]) -> float:
+    """To which power of the number, the least and the greatest of them taken, a time grows."""
+    least, most = min(times), max(times)
+    return math.log(times[most] / times[least]) / math.log(most / least)
+
+
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -377,23 +419,19 @@ def main() -> None:
             parser.error(f"--beside {older}: there is no folder mechanism_fmu in it; give the root of a checkout.")
         beside(older, rounds)
         return
-    found = {count: compare(count, rounds) for count in _SIZES}
+    found = {count: compare(count, rounds) for count in SIZES}
     print("bars  engine  MuJoCo  ratio   [us an acceleration]")
     for count, (ours, theirs) in found.items():
         print(f"{count:4d} {1e6 * ours:7.2f} {1e6 * theirs:7.2f} {ours / theirs:6.3g}")
-    exponent = math.log(found[100][0] / found[20][0]) / math.log(5.0)
-    print(f"The engine's time grows as the number of bars to the power of {exponent:.2f}, from 20 to 100.")
-    for name, made in _OTHERS.items():
-        timed, _ = accelerations(made())
-        print(f"{name:27s} {1e6 * median(timed() for _ in range(rounds)):7.2f}")
+    power = exponent({count: found[count][0] for count in (20, 100)})
+    print(f"The engine's time grows as the number of bars to the power of {power:.2f}, from 20 to 100.")
+    for name, seconds in others(rounds):
+        print(f"{name:27s} {1e6 * seconds:7.2f}")
     print("motions, with all events, checks and projections         [ms], and what is written of a block [MB]")
-    for name, of_many, until in _MOTIONS:
-        times = {}
-        for count in _LARGE:
-            times[count], written = of_motion(of_many(count), until, rounds)
-            print(f"{count:4d} {name:30s} {1e3 * times[count]:8.2f} {written:7.2f}")
-        exponent = math.log(times[_LARGE[-1]] / times[_LARGE[0]]) / math.log(_LARGE[-1] / _LARGE[0])
-        print(f"     as their number to the power of {exponent:.2f}")
+    for one in motions(rounds):
+        for count, seconds in one.times.items():
+            print(f"{count:4d} {one.name:30s} {1e3 * seconds:8.2f} {one.written[count]:7.2f}")
+        print(f"     as their number to the power of {one.exponent:.2f}")
 
 
 if __name__ == "__main__":

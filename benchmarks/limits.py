@@ -26,6 +26,8 @@ from mechanism_fmu.simulation import Simulation, SimulationError
 
 #: So long a motion [s], and so much processor time [s] for it without a reason.
 MOTION, ALLOWED = 0.05, 0.1
+#: More steps than this for each turn, swing or event are without a reason; those with one took up to 118.
+STEPS_EACH = 200
 #: A value is so many times its default, or the 1/so many part, or at a limit with the probability that follows.
 _FACTOR, _AT_LIMIT = 1e5, 0.15
 #: So many of a design's parameters are changed, at most.
@@ -55,6 +57,16 @@ class Run:
     implicit: int
     reasons: float
     ending: str
+
+    @property
+    def is_slow(self) -> bool:
+        """Whether it took longer than `ALLOWED`."""
+        return self.seconds > ALLOWED
+
+    @property
+    def has_reason(self) -> bool:
+        """Whether what was slow had about as much to do as it took steps."""
+        return self.steps <= STEPS_EACH * self.reasons
 
 
 def designs(model: Model, count: int) -> Iterator[dict[str, float]]:
@@ -108,6 +120,12 @@ def run_of(name: str, changed: dict[str, float]) -> Run | None:
     return Run(name, changed, seconds, steps, implicit, reasons, ending)
 
 
+def survey(name: str, count: int) -> Iterator[Run | None]:
+    """Run so many designs of a model; None for each whose start is refused."""
+    for changed in designs(models.load(name).MODEL, count):
+        yield run_of(name, changed)
+
+
 def _simulation(name: str, changed: dict[str, float]) -> Simulation:
     model: Model = models.load(name).MODEL
     return Simulation(model.build(model.values(**changed)))
@@ -143,12 +161,10 @@ def run(
     console = Console(width=150)
     found: list[Run] = []
     for name in [only] if only else list(models.available()):
-        todo = designs(models.load(name).MODEL, count)
-        for changed in track(todo, description=name, total=count, console=Console(stderr=True)):
-            one = run_of(name, changed)
-            found += [one] if one else []
+        runs = track(survey(name, count), description=name, total=count, console=Console(stderr=True))
+        found += [one for one in runs if one]
     table = Table("model", "changed", "time [s]", "steps", "implicit", "turns + swings + events", "steps each", "")
-    slow = sorted((one for one in found if one.seconds > ALLOWED), key=lambda one: -one.seconds)
+    slow = sorted((one for one in found if one.is_slow), key=lambda one: -one.seconds)
     for one in slow:
         named = ", ".join(f"{name} {value:.3g}" for name, value in one.changed.items())
         each = f"{one.steps / one.reasons:.1f}" if one.reasons else "-"

@@ -7,9 +7,12 @@ refused with which words.
 
 from __future__ import annotations
 
+import math
 import random
 import time
 from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
@@ -39,6 +42,8 @@ MODELS = {
     "slider_crank": (1.0, ("crank_angle", "energy_lost")),
     "pin_pallet": (0.2, ("balance_angle", "wheel_angle")),
 }
+#: Designs of each.
+COUNT = 125
 #: Values are so far from their defaults, at most.
 _FACTOR = 1.5
 _STEPS = 20
@@ -81,27 +86,45 @@ def ends_of(slave: Instance, values: dict[str, float], until: float, names: tupl
     return [float(value) for value in slave.get(names)]
 
 
-def run(
-    count: Annotated[int, typer.Option(help="Designs of each model.", min=1)] = 125,
-    only: Annotated[str | None, typer.Option("--model", help="One model only.")] = None,
-) -> None:
-    """Run random designs of the models with events both ways, and count."""
-    console = Console()
-    table = Table(*_HEADINGS)
-    words: Counter[str] = Counter()
-    with TemporaryDirectory() as folder:
-        for name in [only] if only else list(MODELS):
-            _of_model(name, count, Path(folder), table, words)
-    console.print(table)
-    for text, times in words.most_common():
-        console.print(f"{times} times: {text}", markup=False)
+@dataclass(frozen=True)
+class BothWays:
+    """Designs of a model, run both ways.
+
+    Attributes:
+        model: its name.
+        tried: how many designs there were.
+        refused: how many co-simulation refused.
+        apart: how far the ends are from each other, of each that ran both ways.
+        events: how many there were in Model Exchange, of each.
+        at_once: most that followed each other at one instant.
+        slower: how many times as long Model Exchange took.
+        words: of messages, and how often they came.
+    """
+
+    model: str
+    tried: int
+    refused: int
+    apart: tuple[float, ...]
+    events: tuple[int, ...]
+    at_once: int
+    slower: float
+    words: Counter[str]
 
 
-def _of_model(name: str, count: int, folder: Path, table: Table, words: Counter[str]) -> None:
+def both_ways(name: str, todo: Iterable[dict[str, float]], folder: Path) -> BothWays:
+    """Run designs of a model both ways.
+
+    Args:
+        name: of the model.
+        todo: its designs.
+        folder: for its FMU.
+    """
     until, names = MODELS[name]
-    module = models.load(name)
-    path = build_native_fmu(module, folder)
-    refused, apart, events, at_once = 0, [], [], 0
+    path = build_native_fmu(models.load(name), folder)
+    tried, refused, at_once = 0, 0, 0
+    apart: list[float] = []
+    events: list[int] = []
+    words: Counter[str] = Counter()
     spent = {"co-simulation": 0.0, "Model Exchange": 0.0}
     with (
         open_fmu(path) as stepped,
@@ -109,7 +132,8 @@ def _of_model(name: str, count: int, folder: Path, table: Table, words: Counter[
         stepped.instantiate("stepped") as first,
         integrated.instantiate("integrated") as second,
     ):
-        for design in track(designs(module.MODEL, count), description=f"{name:>16}"):
+        for design in todo:
+            tried += 1
             ends = []
             for way, slave in zip(spent, (first, second), strict=True):
                 slave.reset()
@@ -126,17 +150,41 @@ def _of_model(name: str, count: int, folder: Path, table: Table, words: Counter[
                 apart.append(float((np.abs(ends[1] - ends[0]) / np.maximum(1.0, np.abs(ends[0]))).max()))
                 events.append(second.integration.events)  # type: ignore[attr-defined]
                 at_once = max(at_once, second.integration.most_at_once)  # type: ignore[attr-defined]
-    if apart:
-        table.add_row(
-            name,
-            str(count),
-            str(refused),
-            str(len(apart)),
-            f"{np.median(apart):.0e}, {max(apart):.0e}",
-            f"{int(np.median(events))} to {max(events)}",
-            str(at_once),
-            f"{spent['Model Exchange'] / spent['co-simulation']:.1f}",
-        )
+    slower = spent["Model Exchange"] / spent["co-simulation"] if apart else math.nan
+    return BothWays(name, tried, refused, tuple(apart), tuple(events), at_once, slower, words)
+
+
+def run(
+    count: Annotated[int, typer.Option(help="Designs of each model.", min=1)] = COUNT,
+    only: Annotated[str | None, typer.Option("--model", help="One model only.")] = None,
+) -> None:
+    """Run random designs of the models with events both ways, and count."""
+    console = Console()
+    table = Table(*_HEADINGS)
+    words: Counter[str] = Counter()
+    with TemporaryDirectory() as folder:
+        for name in [only] if only else list(MODELS):
+            todo = designs(models.load(name).MODEL, count)
+            one = both_ways(name, track(todo, description=f"{name:>16}"), Path(folder))
+            words += one.words
+            if one.apart:
+                table.add_row(*_cells(one))
+    console.print(table)
+    for text, times in words.most_common():
+        console.print(f"{times} times: {text}", markup=False)
+
+
+def _cells(one: BothWays) -> tuple[str, ...]:
+    return (
+        one.model,
+        str(one.tried),
+        str(one.refused),
+        str(len(one.apart)),
+        f"{np.median(one.apart):.0e}, {max(one.apart):.0e}",
+        f"{int(np.median(one.events))} to {max(one.events)}",
+        str(one.at_once),
+        f"{one.slower:.1f}",
+    )
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ The sweep varies slope, spring and torque of the paper's ratchet; see docs/proje
 from __future__ import annotations
 
 import json
-import os
 import tempfile
 from dataclasses import asdict
 from pathlib import Path
@@ -16,17 +15,9 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from ..fmus import build_ratchet
 from ..table import WIDTH_OF_A_FILE, as_json, table, this_machine
-from ..timing import Comparison, DisagreementError
-from .compare import Accuracy, Sweep, against_mujoco, against_plain
-from .sweep import processes
-
-#: The paper's experiment, and just beyond its impact [s].
-_LONG, _SHORT = 6.0, 1.2
-_LEAST_MUJOCO, _LEAST_PLAIN = 15.0, 100.0
-_DESIGNS, _FEW = 256, 16
-_ROUNDS = 9
+from ..timing import DisagreementError
+from .compare import ROUNDS, Accuracy, compare
 
 
 def run(
@@ -45,7 +36,7 @@ def run(
     out.print(", ".join(f"{name} {value}" for name, value in machine.items()), soft_wrap=True)
     try:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-            comparisons, accuracies = _compare(Path(folder), progress)
+            comparisons, accuracies = compare(Path(folder), ROUNDS, progress.print)
     except DisagreementError as error:
         progress.print(f"[bold red]Error:[/] {error}", soft_wrap=True)
         raise typer.Exit(1) from None
@@ -56,23 +47,6 @@ def run(
         json_file.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
     if any(comparison.met is False for comparison in comparisons):
         raise typer.Exit(1)
-
-
-def _compare(folder: Path, progress: Console) -> tuple[list[Comparison], list[Accuracy]]:
-    progress.print("builds the FMU (a first build compiles the engine ahead of time)")
-    fmu, threads = build_ratchet(folder), os.cpu_count() or 1
-    comparisons, accuracies = [], []
-    with processes(threads) as pool:
-        for stop_time in (_LONG, _SHORT):
-            required = stop_time == _LONG
-            sweep = Sweep.of(fmu, _DESIGNS, stop_time, threads)
-            progress.print(f"MuJoCo, to {stop_time:g} s")
-            compared = [against_mujoco(sweep, _ROUNDS, _LEAST_MUJOCO if required else None)]
-            progress.print(f"solve_ivp, to {stop_time:g} s")
-            compared += [against_plain(sweep, pool, _FEW, _ROUNDS, _LEAST_PLAIN if required else None)]
-            comparisons += [comparison for comparison, _ in compared]
-            accuracies += [accuracy for _, found in compared for accuracy in found]
-    return comparisons, accuracies
 
 
 def _accuracy(accuracies: list[Accuracy]) -> Table:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..fmus import build_ratchet
 from ..ratchet import Parameters
 from ..timing import Comparison, DisagreementError, batch, in_turns
-from .sweep import FastPath, Found, MuJoCo, pooled, random_designs
+from .sweep import FastPath, Found, MuJoCo, pooled, processes, random_designs
 
 #: What times of impacts [s] and speeds [rad/s] must be accurate to, and the tolerances that give it: of 1, 2 and 5
 #: times powers of ten, the largest ones that do.
@@ -18,6 +21,13 @@ _EXACT = 1e-12
 
 #: MuJoCo's impact comes with the end of a step, and its contact is soft.
 _MUJOCO = (1e-3, 2e-4, 2e-4)
+
+#: The paper's experiment, and just beyond its impact [s].
+_LONG, _SHORT = 6.0, 1.2
+_LEAST_MUJOCO, _LEAST_PLAIN = 15.0, 100.0
+_DESIGNS, _FEW = 256, 16
+#: In which two ways take turns.
+ROUNDS = 9
 
 
 @dataclass(frozen=True)
@@ -113,3 +123,33 @@ def against_plain(
     times = in_turns(lambda: batch(run, 1) / len(few), sweep.time, rounds)
     subject = f"one design, {sweep.threads} threads (baseline: solve_ivp in {sweep.threads} processes)"
     return Comparison(subject, f"to {sweep.stop_time:g} s", *times, least_ratio), accuracies
+
+
+def compare(
+    folder: Path, rounds: int, say: Callable[[str], None], designs: int = _DESIGNS
+) -> tuple[list[Comparison], list[Accuracy]]:
+    """Both comparisons of the long sweep, then of the short one.
+
+    Args:
+        folder: for the FMU.
+        rounds: in which two ways take turns.
+        say: what begins.
+        designs: of the sweep.
+
+    Raises:
+        DisagreementError: a way is less accurate than it should be.
+    """
+    say("builds the FMU (a first build compiles the engine ahead of time)")
+    fmu, threads = build_ratchet(folder), os.cpu_count() or 1
+    comparisons, accuracies = [], []
+    with processes(threads) as pool:
+        for stop_time in (_LONG, _SHORT):
+            required = stop_time == _LONG
+            sweep = Sweep.of(fmu, designs, stop_time, threads)
+            say(f"MuJoCo, to {stop_time:g} s")
+            compared = [against_mujoco(sweep, rounds, _LEAST_MUJOCO if required else None)]
+            say(f"solve_ivp, to {stop_time:g} s")
+            compared += [against_plain(sweep, pool, _FEW, rounds, _LEAST_PLAIN if required else None)]
+            comparisons += [comparison for comparison, _ in compared]
+            accuracies += [accuracy for _, found in compared for accuracy in found]
+    return comparisons, accuracies

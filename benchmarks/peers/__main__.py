@@ -9,10 +9,10 @@ import typer
 from rich.console import Console
 from rich.progress import track
 
-from .case import Point, measure
 from .cases import CASES
-from .pages import FIGURE, PAGE, Result, absent, ahead, page, picture
-from .programs import is_here, peers
+from .pages import FIGURE, PAGE, absent, ahead, page, picture
+from .programs import peers
+from .result import Result, run_all
 
 
 def run(
@@ -31,18 +31,7 @@ def run(
         if peer.version is None:
             typer.echo(absent(peer), err=True)
     cases = [CASES[name] for name in names or CASES]
-    tasks = [
-        (case, program, setting)
-        for case in cases
-        for program in case.programs
-        if is_here(program.code)
-        for setting in program.settings
-    ]
-    exact = {case.name: case.reference() for case in cases}
-    points: dict[str, list[Point]] = {case.name: [] for case in cases}
-    for case, program, setting in track(tasks, "runs", console=Console(stderr=True)):
-        points[case.name].append(measure(program, setting, exact[case.name]))
-    results = [Result(case, tuple(points[case.name])) for case in cases]
+    results = run_all(cases, lambda runs: track(runs, "runs", console=Console(stderr=True)))
     typer.echo(ahead(results) + "\n")
     for result in results:
         _print(result)

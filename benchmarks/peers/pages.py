@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import platform
 from collections.abc import Sequence
-from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
@@ -14,8 +13,9 @@ from harness.report.static import svg_text
 from mechanism_fmu.processors import processors
 
 from ..world.pages import FOLDER
-from .case import EXACT, OURS, Case, Point, Verdict, overtaken, verdicts
+from .case import EXACT, OURS, Point, Verdict
 from .programs import PEERS, Peer
+from .result import Result
 
 PAGE, FIGURE = FOLDER / "peers.md", FOLDER / "peers.svg"
 _CPU = Path("/proc/cpuinfo")
@@ -25,24 +25,6 @@ _COLOURS = {OURS: "#1f6feb", "MuJoCo": "#d1242f", "scipy": "#2da44e", "pymunk": 
 _FURTHER = "#bf3989"
 #: Errors below are drawn as this.
 _LEAST = 1e-16
-
-
-@dataclass(frozen=True)
-class Result:
-    """A case, and all that was run of it."""
-
-    case: Case
-    points: tuple[Point, ...]
-
-    @property
-    def verdicts(self) -> list[Verdict]:
-        """Each way of a peer at its best, those that are ahead first."""
-        return verdicts(self.points, self.case.floor)
-
-    @property
-    def overtaken(self) -> list[Verdict]:
-        """Peers that are ahead at some other setting."""
-        return overtaken(self.points, self.case.floor)
 
 
 def page(results: Sequence[Result], peers: Sequence[Peer], today: date) -> str:

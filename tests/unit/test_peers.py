@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.peers import __main__ as command
+from benchmarks.peers import __main__ as command, result
 from benchmarks.peers.case import OURS, Point, Program, Vector, error, measure, overtaken, verdicts
 from benchmarks.peers.cases import CASES
-from benchmarks.peers.pages import FIGURE, PAGE, Result, absent, ahead, page, picture
+from benchmarks.peers.pages import FIGURE, PAGE, absent, ahead, page, picture
 from benchmarks.peers.programs import PEERS, Peer, is_here, peers
+from benchmarks.peers.result import Result
 
 #: Each program of a case that is not the engine.
 _WAYS = [
@@ -126,7 +127,7 @@ def test_the_command_leaves_out_what_is_not_installed_and_refuses_an_unknown_cas
     case = CASES["ratchet"]
     programs = tuple(replace(program, settings=program.settings[:1]) for program in case.programs)
     monkeypatch.setattr(command, "CASES", {"ratchet": replace(case, programs=programs)})
-    monkeypatch.setattr(command, "is_here", lambda code: code in (OURS, "scipy"))
+    monkeypatch.setattr(result, "is_here", lambda code: code in (OURS, "scipy"))
     monkeypatch.setattr(command, "peers", lambda: [Peer("pymunk", None)])
     monkeypatch.setattr(command, "PAGE", tmp_path / "peers.md")
     monkeypatch.setattr(command, "FIGURE", tmp_path / "peers.svg")
