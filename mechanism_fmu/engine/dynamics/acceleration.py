@@ -89,8 +89,9 @@ def scale_rows(block: Array, count: int) -> None:
 #: Active rows may be off by this: in position [m, rad, m2], and in their rates [m/s, rad/s].
 MOST_DRIFT = 1e-11
 MOST_RATE_DRIFT = 1e-10
-#: Where rows bend, as that of a pin in a hole with little play, one correction leaves some of a large drift.
-_CORRECTIONS = 4
+#: Where rows bend, as that of a pin in a hole with little play, one correction leaves some of a large drift. Rows that
+#: contradict each other come no nearer by more.
+_CORRECTIONS = 3
 #: At events, where positions and rates are put right anyway.
 LEAST_DRIFT = 1e-14
 
@@ -126,17 +127,14 @@ def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
     at = place_bodies(block, y)
     settle_contact_points(block, at, y)
     count = active_rows(block, at)
-    left = largest(Rows(block).residual, count)
-    if not left > most:
+    if not largest(Rows(block).residual, count) > most:
         return count, False
     for _ in range(_CORRECTIONS):
         come_nearer(block, correct(block, count, Rows(block).residual, y))
         at = place_bodies(block, y)
         settle_contact_points(block, at, y)
         count = active_rows(block, at)
-        before = left
-        left = largest(Rows(block).residual, count)
-        if not MOST_DRIFT < left < before:  # rows that contradict each other come no nearer
+        if not largest(Rows(block).residual, count) > MOST_DRIFT:
             break
     return count, True
 

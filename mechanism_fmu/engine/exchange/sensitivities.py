@@ -6,8 +6,8 @@ and slip: there the first difference is exact, however large its step is, and th
 the search. What is not linear (friction in joints, laws of the user's own, states) is extrapolated until the best of
 all estimates is found, for each number by itself.
 
-Where inputs alone change, all of it comes from one factorisation of the constraints; and what is not asked for is
-neither waited for nor, of the derivatives of states, computed.
+Where inputs alone change and nothing rubs, all of it comes from one factorisation of the constraints; what is not asked
+for is not waited for.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import LEVELS, Course, LinearSystem, Sensitivity
-from ...tables.parts import Forces, Ports
+from ...tables.parts import Ports
 from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_apart, keep_small
-from ..constraints.friction_rows import BRAKE
+from ..constraints.friction_rows import rubs
 from ..dynamics.linear_solve import KEEP
 from ..outputs import read_outputs
 from ..vectors import copy
@@ -49,7 +49,7 @@ def respond(block: Array) -> None:
     copy(now.y_end, table.states)
     copy(now.dy_end, table.rates)
     step, moved = _first_step(block)
-    if not moved and not _moves_brake(block):
+    if not (moved or rubs(block)):  # the limit of a brake, at 0 of which it has no row, may be an input
         LinearSystem(block).kept[0] = KEEP
     for k in range(table.response.shape[0]):
         table.error[k] = math.inf
@@ -85,18 +85,6 @@ def _first_step(block: Array) -> tuple[float, bool]:
 
 
 @jit
-def _moves_brake(block: Array) -> bool:
-    """Whether an input that moves is the limit of a brake, at 0 of which there is no row of what it holds."""
-    ports = Ports(block)
-    element = Forces(block)
-    for k in range(ports.inputs.shape[0]):
-        of = ports.input_force[k]
-        if Sensitivity(block).input_seed[k] != 0.0 and of != codes.NONE and element.kind[of] == BRAKE:
-            return True
-    return False
-
-
-@jit
 def _move(block: Array, part: float) -> None:
     """Inputs and states are moved by `part` of the seeds."""
     keep_small()
@@ -117,29 +105,18 @@ def _difference(block: Array, step: float) -> None:
     outputs = Ports(block).outputs
     rates = Course(block).dy_end
     count = Sizes(block).outputs
-    outside, inside = _asks(block, 0, count), _asks(block, count, quotient.shape[0])
+    clock = Course(block).clock
     for side in range(2):
         sign = 1.0 if side == 0 else -1.0
         _move(block, sign * step)
-        if outside:
-            read_outputs(block)
-        if inside:
+        read_outputs(block)
+        if not clock[codes.TIME] < clock[codes.STEP_END]:  # else derivatives of states are not to be had
             evaluate(block)
         for k in range(quotient.shape[0]):
             value = outputs[k] if k < count else rates[k - count]
             if side == 0:
                 quotient[k] = 0.0
             quotient[k] += 0.5 * sign * value / step
-
-
-@jit
-def _asks(block: Array, first: int, end: int) -> bool:
-    """Whether one of these numbers is asked for."""
-    asked = Sensitivity(block).asked
-    count = 0
-    for k in range(first, end):
-        count += asked[k]
-    return count > 0
 
 
 @jit

@@ -96,6 +96,7 @@ def comes_down_beside(block: Array, guard: int, subject: int, fraction: float) -
 
     Its gap is that of these features, and goes on behind their ends as if they did: nothing is struck there.
     """
+    keep_small()
     table = Contacts(block)
     if guard != codes.GUARD_GAP or not is_outline(block, subject) or is_free(block, subject):
         return False

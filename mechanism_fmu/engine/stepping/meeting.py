@@ -110,7 +110,7 @@ def meets_since(block: Array, number: int, end: float) -> float:
 @jit
 def _since_last_look(block: Array, number: int, after: float, value: float) -> float:
     """Where a distance came down to zero between the last look and `after`, where it is `value`."""
-    keep_small()
+    keep_apart()
     look_at = Watch(block)
     close = GAP_NOISE / look_at.most[number]
     above, before = look_at.next[number, 0], look_at.next[number, 1]

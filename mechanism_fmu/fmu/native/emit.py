@@ -31,7 +31,8 @@ _IN_PLACE = ("vectors", "constraints.entries", "stepping.runge_kutta", "dynamics
 
 #: What runs once in a step or less, or on few numbers only: rather short than fast.
 _SHORT = (
-    *("starting", "contacts", "exchange", "outlines", "outputs", "stepping.rosenbrock"),
+    *("starting", "contacts", "exchange", "outlines", "outputs"),
+    *(f"stepping.{name}" for name in ("rosenbrock", "step_size", "looks", "stage")),
     *(f"library.{name}" for name in ("_begin", "_begin_step", "_exchange", "_respond", "_read_output_rates")),
 )
 
