@@ -13,6 +13,7 @@ PAGES = sorted(JOINTS.glob("*.md"))
 
 _EXAMPLE = re.compile(r"```python\n(.*?)```\n+```text\n(.*?)```", re.DOTALL)
 _PROGRAM = re.compile(r"```python\n")
+_COMMAND = re.compile(r"```sh\nmechanism-fmu (.*?)```\n\n<!-- printed -->\n```text\n(.*?)```\n<!-- end -->", re.DOTALL)
 
 
 def examples(page: Path) -> list[tuple[str, str]]:
@@ -21,6 +22,11 @@ def examples(page: Path) -> list[tuple[str, str]]:
     found: list[tuple[str, str]] = _EXAMPLE.findall(text)
     assert len(found) == len(_PROGRAM.findall(text)), f"{page.name}: a program is not followed by its output"
     return found
+
+
+def commands(page: Path) -> list[tuple[str, str]]:
+    """Arguments of each `mechanism-fmu` of a page that is marked as printed, with what it prints."""
+    return _COMMAND.findall(page.read_text(encoding="utf-8"))
 
 
 def what_prints(program: str, page: Path, names: dict[str, Any] | None = None) -> str:

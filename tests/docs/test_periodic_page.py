@@ -6,18 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pages import JOINTS, examples, what_prints
+from pages import JOINTS, commands, examples, what_prints
 from typer.testing import CliRunner
 
 from harness.app.cli import main
 
 ROOT = Path(__file__).parents[2]
 PAGE = JOINTS.parent / "how-to" / "periodic-motions.md"
-PRINTED = re.findall(
-    r"```sh\nmechanism-fmu (.*?)```\n\n<!-- printed -->\n```text\n(.*?)```\n<!-- end -->",
-    PAGE.read_text(encoding="utf-8"),
-    re.DOTALL,
-)
+PRINTED = commands(PAGE)
 _NUMBER = re.compile(r"-?\d+\.\d+(?:e-?\d+)?|\b\de-\d+")
 
 

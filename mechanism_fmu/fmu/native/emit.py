@@ -94,7 +94,7 @@ def object_file(bitcode: bytes, target: Target) -> bytes:
     for level in (1, 3):
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
         tuning.loop_interleaving = False  # the engine's loops go over a handful of rows
-        tuning.inlining_threshold = 60
+        tuning.inlining_threshold = 50
         passes = llvm.create_pass_builder(machine, tuning)
         passes.getModulePassManager().run(module, passes)
     emitted: bytes = machine.emit_object(module)
