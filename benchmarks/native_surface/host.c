@@ -1,8 +1,10 @@
 /* Times the native FMU and the bare engine in turns, in one process without Python.
-   Usage: host FMU-LIBRARY GUID ENGINE-LIBRARY BLOCK WORDS TORQUE-WORD TORQUE-REFERENCE ROUNDS
-   BLOCK is a file with an instance's block before the motion begins; TORQUE-WORD is where it holds the drive torque.
+   Usage: host FMU-LIBRARY GUID ENGINE-LIBRARY BLOCK WORDS TORQUE-WORD TORQUE-REFERENCE SPEED-WORD SPEED-REFERENCE ROUNDS
+   BLOCK is a file with an instance's block before the motion begins; TORQUE-WORD is where it holds the drive torque,
+   SPEED-WORD where an output.
    Prints one line a round: nanoseconds a step of engine and FMU with constant input, of engine and FMU with a new input
-   each step, of instantiate .. exitInitializationMode, of a saved and restored state. */
+   each step, of instantiate .. exitInitializationMode, of a saved and restored state; then that output at the end, of
+   engine and FMU with constant input, of both with a new input each step. */
 #define _POSIX_C_SOURCE 199309L
 #include <dlfcn.h>
 #include <stdarg.h>
@@ -57,7 +59,7 @@ static const fmi2CallbackFunctions CALLBACKS = {logger, calloc, free, NULL, NULL
 static double torque_of(int k, int changes) { return changes && k % 2 ? 1.1e-3 : 1e-3; }
 
 int main(int argc, char **argv) {
-    if (argc != 9) return 2;
+    if (argc != 11) return 2;
     void *fmu = open_library(argv[1]), *engine = open_library(argv[3]);
     fmi2InstantiateTYPE *instantiate = find(fmu, "fmi2Instantiate");
     fmi2FreeInstanceTYPE *free_instance = find(fmu, "fmi2FreeInstance");
@@ -70,18 +72,22 @@ int main(int argc, char **argv) {
     fmi2SetFMUstateTYPE *set_state = find(fmu, "fmi2SetFMUstate");
     fmi2FreeFMUstateTYPE *free_state = find(fmu, "fmi2FreeFMUstate");
     int64_t (*begin)(double *, int64_t, double) = find(engine, "engine_begin");
+    fmi2GetRealTYPE *get = find(fmu, "fmi2GetReal");
+    void (*read_outputs)(double *, int64_t) = find(engine, "engine_read_outputs");
     int64_t (*advance)(double *, int64_t, double) = find(engine, "engine_advance");
 
     int64_t words = atoll(argv[5]);
     size_t torque = (size_t)atoll(argv[6]);
     fmi2ValueReference reference = (fmi2ValueReference)atoi(argv[7]);
+    size_t speed = (size_t)atoll(argv[8]);
+    fmi2ValueReference speed_reference = (fmi2ValueReference)atoi(argv[9]);
     double *template = malloc((size_t)words * 8), *block = malloc((size_t)words * 8);
     FILE *file = fopen(argv[4], "rb");
     if (!file || fread(template, 8, (size_t)words, file) != (size_t)words) return 5;
     fclose(file);
 
-    for (int round = 0; round < atoi(argv[8]); round++) {
-        double spent[2][2];
+    for (int round = 0; round < atoi(argv[10]); round++) {
+        double spent[2][2], end[2][2];
         for (int changes = 0; changes < 2; changes++) {
             memcpy(block, template, (size_t)words * 8);
             check((int)begin(block, words, 0.0), "begin");
@@ -92,6 +98,8 @@ int main(int argc, char **argv) {
                 check((int)advance(block, words, k * STEP + STEP), "advance");
             }
             spent[changes][0] = (now() - start) / STEPS;
+            read_outputs(block, words);
+            end[changes][0] = block[speed];
 
             fmi2Component c = instantiate("one", fmi2CoSimulation, argv[2], "", &CALLBACKS, 0, 0);
             if (!c) return 6;
@@ -102,11 +110,12 @@ int main(int argc, char **argv) {
             for (int k = 0; k < STEPS; k++) {
                 if (changes) {
                     double value = torque_of(k, 1);
-                    set(c, &reference, 1, &value);
+                    check(set(c, &reference, 1, &value), "set");
                 }
                 check(do_step(c, k * STEP, STEP, 1), "step");
             }
             spent[changes][1] = (now() - start) / STEPS;
+            check(get(c, &speed_reference, 1, &end[changes][1]), "get");
             free_instance(c);
         }
         double start = now();
@@ -128,7 +137,8 @@ int main(int argc, char **argv) {
         double a_state = (now() - start) / STATES;
         free_state(c, &state);
         free_instance(c);
-        printf("%.17g %.17g %.17g %.17g %.17g %.17g\n", spent[0][0], spent[0][1], spent[1][0], spent[1][1], a_start, a_state);
+        printf("%.17g %.17g %.17g %.17g %.17g %.17g ", spent[0][0], spent[0][1], spent[1][0], spent[1][1], a_start, a_state);
+        printf("%.17g %.17g %.17g %.17g\n", end[0][0], end[0][1], end[1][0], end[1][1]);
     }
     return 0;
 }

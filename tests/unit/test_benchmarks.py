@@ -12,6 +12,7 @@ import models
 from benchmarks import acceleration, bending, cams, elastodynamics, fmu_step, fmus, reference, step
 from benchmarks.c_limit import compare as c_limit
 from benchmarks.c_limit.library import Limit, NoCompilerError, build, export
+from benchmarks.native_surface import compare as native_surface
 from benchmarks.table import as_json, table, this_machine
 from benchmarks.timing import Comparison, DisagreementError, in_turns, require_agreement
 from mechanism_fmu import codes
@@ -120,6 +121,29 @@ def test_c_of_another_mechanism_is_not_timed(engine: c_limit.Engine, tmp_path: P
         c_limit.require_same_motion("constant input", engine, limit)
     settings[codes.BAUMGARTE_ALPHA] -= 1.0
     engine.restore(start)
+
+
+def surface(folder: Path) -> list[Comparison]:
+    try:
+        return native_surface.compare(folder, 1)
+    except NoCompilerError as error:
+        pytest.skip(str(error))
+
+
+@pytest.mark.slow
+def test_native_fmu_and_bare_engine_are_timed(tmp_path: Path) -> None:
+    constant, changing, *others = surface(tmp_path)
+    assert min(changing.slow + changing.fast) > 2 * max(constant.slow + constant.fast), "no input changes"
+    assert len(others) == 3
+
+
+@pytest.mark.slow
+def test_an_fmu_that_does_not_get_the_input_is_not_timed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    right = native_surface._word
+    others = {"drive_torque": "spring_preload", "wheel_speed": "wheel_speed"}
+    monkeypatch.setattr(native_surface, "_word", lambda *of: right(*of[:-1], others[of[-1]]))
+    with pytest.raises(DisagreementError, match="bare engine"):
+        surface(tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -151,9 +151,14 @@ def test_each_part_has_its_own_name_and_needs_what_comes_with_an_extra() -> None
     assert {package for part in every for package in part.needs} <= set(number._EXTRAS)
 
 
-def test_a_comparison_is_the_ratio_of_its_table() -> None:
-    (found,) = longer.ratios([Comparison("one step", "calm", (6.0, 5.0, 90.0), (2.0, 1.0, 2.0))])
-    assert found == Number("speed", "one step: calm, times as fast", "1", 3.0)
+def test_a_comparison_is_what_its_requirement_is_about() -> None:
+    slow, fast = (6.0, 5.0, 90.0), (2.0, 1.0, 2.0)
+    (ratio,) = longer.judged([Comparison("one step", "calm", slow, fast, least_ratio=2.0)])
+    assert ratio == Number("speed", "one step: calm, times as fast", "1", 3.0)
+    (time,) = longer.judged([Comparison("one step", "calm", slow, (2.5e-3,), longest=0.02)])
+    assert time == Number("speed", "one step: calm", "ms", 2.5)
+    (time,) = longer.judged([Comparison("one step", "calm", slow, fast, longest=10.0)])
+    assert time == Number("speed", "one step: calm", "s", 2.0)
 
 
 def test_designs_at_the_limits_are_counted() -> None:
