@@ -298,7 +298,7 @@ class MovingMechanism:
 
         It is not while the engine, which is ahead by a step, has already passed another one.
         """
-        count, last = int(self.counters[codes.COUNT_PASSED]), float(self.field("clock")[codes.PASSED_AT])
+        count, last = int(self.counters.item(codes.COUNT_PASSED)), float(self._clock.item(codes.PASSED_AT))
         if count == 0 or last > self.time:
             return max(0, count - 1), math.nan
         return count, last
