@@ -55,7 +55,12 @@ PARTS = (
     Part("a linkage that bends", lambda _, rounds: elastodynamics.compare(rounds) + bending.compare(rounds)),
     Part("the same algorithm by hand in C", c_limit.compare, (NoCompilerError,)),
     Part(
-        "the native FMU, from C (builds it; a first build compiles the engine ahead of time)",
+        "that algorithm in C and the engine of FMUs (a first build compiles the engine ahead of time)",
+        c_limit.compare_with_fmus,
+        (NoCompilerError, MechanismError),
+    ),
+    Part(
+        "the native FMU, from C (builds it)",
         native_surface.compare,
         (NoCompilerError, MechanismError),
     ),

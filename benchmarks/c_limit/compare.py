@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from pathlib import Path
 
 import numpy as np
@@ -12,15 +13,17 @@ from mechanism_fmu.engine import status
 from mechanism_fmu.engine.compiler.subset import entry
 from mechanism_fmu.engine.dynamics.acceleration import derivative
 from mechanism_fmu.engine.dynamics.forces import feed
+from mechanism_fmu.engine.run import library_path
 from mechanism_fmu.engine.starting.begin import begin
 from mechanism_fmu.engine.stepping.stepper import advance, state_at_time
+from mechanism_fmu.fmu.native.objects import engine_libraries
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.tables.declare import Array
 from mechanism_fmu.tables.layout import field_of, pack, state_of
 from mechanism_fmu.tables.parts import Ports
 
 from ..timing import Comparison, DisagreementError, batch, in_turns, require_agreement
-from .library import STEP, Limit, build
+from .library import STEP, Limit, NoCompilerError, build
 
 #: Communication steps: 6 s of the paper's base case.
 STEPS = 6000
@@ -82,8 +85,36 @@ class Engine:
         state_of(self.block)[:] = state
 
 
+class EngineOfFmus(Engine):
+    """The same engine as FMUs have it: compiled ahead of time, for any processor of this kind.
+
+    Args:
+        folder: to write its library into.
+        limit: the C program, which has the loop that calls it.
+
+    Raises:
+        NoCompilerError: FMUs have none for this platform.
+        MechanismError: it cannot be made here.
+    """
+
+    def __init__(self, folder: Path, limit: ctypes.CDLL) -> None:
+        super().__init__()
+        path = library_path(folder)
+        if path is None:
+            raise NoCompilerError("FMUs have no compiled engine for this platform.")
+        path.write_bytes(engine_libraries()[path.name])
+        self._advance = ctypes.cast(ctypes.CDLL(str(path)).engine_advance, ctypes.c_void_p)
+        self._run = limit.other_run
+        self._input = (field_of(self.block, "inputs").ctypes.data - self.block.ctypes.data) // self.block.itemsize
+
+    def run(self, torques: Array, first: int, count: int) -> None:
+        """Make `count` communication steps, from number `first` on, with two drive torques in turns."""
+        at, words = self.block.ctypes.data, self.block.size
+        _require_ok(self._run(self._advance, at, words, self._input, torques.ctypes.data, STEP, first, count))
+
+
 def compare(folder: Path, rounds: int) -> list[Comparison]:
-    """Compile the C program into `folder` and compare.
+    """Compile the C program into `folder` and compare with the engine as numba compiles it here.
 
     Raises:
         NoCompilerError: there is no C compiler.
@@ -92,8 +123,15 @@ def compare(folder: Path, rounds: int) -> list[Comparison]:
     library = build(folder)
     engine = Engine()
     limit = Limit(library, engine.block)
-    steps = [_steps(drive, engine, limit, _PAIRS * rounds) for drive in DRIVES]
+    steps = _steps("one 1 ms step", engine, limit, _PAIRS * rounds)
     return [*steps, *(_acceleration(when, engine, limit, _PAIRS * rounds) for when in _INSTANTS)]
+
+
+def compare_with_fmus(folder: Path, rounds: int) -> list[Comparison]:
+    """The same with the engine as FMUs have it; errors also as `EngineOfFmus`."""
+    library = build(folder)
+    engine = EngineOfFmus(folder, library)
+    return _steps("one 1 ms step by the engine of FMUs", engine, Limit(library, engine.block), _PAIRS * rounds)
 
 
 def require_same_motion(drive: str, engine: Engine, limit: Limit) -> None:
@@ -115,8 +153,12 @@ def require_same_motion(drive: str, engine: Engine, limit: Limit) -> None:
         )
 
 
-def _steps(drive: str, engine: Engine, limit: Limit, pairs: int) -> Comparison:
-    """The whole run, through the impact, side by side."""
+def _steps(subject: str, engine: Engine, limit: Limit, pairs: int) -> list[Comparison]:
+    """The whole run, through the impact, side by side, with each drive."""
+    return [_steps_with(drive, f"{subject} (baseline: hand-written C)", engine, limit, pairs) for drive in DRIVES]
+
+
+def _steps_with(drive: str, subject: str, engine: Engine, limit: Limit, pairs: int) -> Comparison:
     torques, count = np.array(DRIVES[drive]), _RUN[drive]
     starts = engine.save(), limit.save()
 
@@ -132,7 +174,7 @@ def _steps(drive: str, engine: Engine, limit: Limit, pairs: int) -> Comparison:
     engine.restore(starts[0])
     limit.restore(starts[1])
     slow, fast = zip(*times, strict=True)
-    return Comparison("one 1 ms step (baseline: hand-written C)", drive, slow, fast, least_ratio=1 / MOST_RATIO)
+    return Comparison(subject, drive, slow, fast, least_ratio=1 / MOST_RATIO)
 
 
 def _acceleration(when: str, engine: Engine, limit: Limit, pairs: int) -> Comparison:

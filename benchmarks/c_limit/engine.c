@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 enum {
@@ -1160,6 +1161,19 @@ int engine_run(Engine *e, const double values[2], double step, int first, int co
     for (int k = first; k < first + count; k++) {
         e->state.input[0] = values[k % 2];
         int outcome = advance(e, k * step);
+        if (outcome != OK)
+            return outcome;
+    }
+    return OK;
+}
+
+/* The same with another engine: `advance` of its library, the place of its input in its block. */
+int other_run(int64_t (*other_advance)(double *, int64_t, double), double *block, int64_t words, int64_t input,
+              const double values[2], double step, int first, int count)
+{
+    for (int k = first; k < first + count; k++) {
+        block[input] = values[k % 2];
+        int outcome = (int)other_advance(block, words, k * step);
         if (outcome != OK)
             return outcome;
     }

@@ -6,7 +6,7 @@ import ctypes
 import os
 import shutil
 import subprocess
-from ctypes import POINTER, Structure, c_double, c_int, c_size_t, c_void_p
+from ctypes import POINTER, Structure, c_double, c_int, c_int64, c_size_t, c_void_p
 from pathlib import Path
 from typing import Any
 
@@ -104,6 +104,7 @@ def build(folder: Path) -> ctypes.CDLL:
     library.engine_begin.argtypes = [c_void_p, POINTER(Mechanism), c_void_p, c_void_p]
     library.engine_begin.restype = library.engine_read.restype = library.engine_derivatives.restype = None
     library.engine_run.argtypes = [c_void_p, c_void_p, c_double, c_int, c_int]
+    library.other_run.argtypes = [c_void_p, c_void_p, c_int64, c_int64, c_void_p, c_double, c_int, c_int]
     library.engine_read.argtypes = [c_void_p, c_void_p]
     library.engine_derivatives.argtypes = [c_void_p, c_void_p, c_void_p, c_int]
     return library

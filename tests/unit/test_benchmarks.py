@@ -16,6 +16,7 @@ from benchmarks.native_surface import compare as native_surface
 from benchmarks.table import as_json, table, this_machine
 from benchmarks.timing import Comparison, DisagreementError, in_turns, require_agreement
 from mechanism_fmu import codes
+from mechanism_fmu.model import MechanismError
 from mechanism_fmu.model.compile import compile_mechanism
 from mechanism_fmu.tables.layout import field_of, pack
 
@@ -110,6 +111,23 @@ def test_engine_and_hand_written_c_are_timed(tmp_path: Path) -> None:
     found = c_limit.compare(tmp_path, 1)
     assert [c.case for c in found] == ["constant input", "new input each step", "before impact", "after impact"]
     assert all(times > 0 for c in found for times in (*c.slow, *c.fast))
+
+
+@pytest.mark.slow
+@needs_compiler
+def test_the_engine_of_fmus_takes_the_same_steps_as_c(tmp_path: Path) -> None:
+    library = build(tmp_path)
+    try:
+        shipped = c_limit.EngineOfFmus(tmp_path, library)
+    except (NoCompilerError, MechanismError) as error:
+        pytest.skip(str(error))
+    limit = Limit(library, shipped.block)
+    c_limit.require_same_motion("new input each step", shipped, limit)
+    assert shipped.steps == limit.steps > 6000
+    again = tmp_path / "again"  # what is loaded must not be written anew
+    again.mkdir()
+    found = c_limit.compare_with_fmus(again, 1)
+    assert [c.case for c in found] == list(c_limit.DRIVES)
 
 
 @needs_compiler

@@ -9,7 +9,7 @@ import numba
 from numba import types
 from numba.extending import lower_builtin, type_callable
 
-from . import bits as bits, views as views  # teach the compiler the tables, and what is exact on the bits of a number
+from . import bits as bits, indices as indices, views as views  # teach the compiler tables, bits, and plain indices
 from .machine_code import InnerCompiler, check_files, ignore_literals, refuse_python_calls
 from .marks import keep_apart, keep_small
 

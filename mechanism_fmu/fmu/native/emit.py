@@ -13,11 +13,8 @@ import gc
 import sys
 from multiprocessing import Process
 from pathlib import Path
-from typing import Any
 
 import llvmlite.binding as llvm
-import numba.np.arrayobj
-from numba import types
 
 from ...engine.library import EXPORTS, intermediate_code
 from ..disk.user_cache import keep
@@ -35,18 +32,6 @@ _SHORT = (
     *(f"stepping.{name}" for name in ("rosenbrock", "step_size", "looks", "stage")),
     *(f"library.{name}" for name in ("_begin", "_begin_step", "_exchange", "_respond", "_read_output_rates")),
 )
-
-
-def _count_from_start_only() -> None:
-    """Leave out that a negative index counts from the end, which the engine does nowhere: a seventh of its time.
-
-    For this process, which compiles nothing else.
-    """
-
-    def as_it_is(context: Any, builder: Any, kind: Any, index: Any, _size: Any) -> Any:
-        return context.cast(builder, index, kind, types.intp)
-
-    numba.np.arrayobj.fix_integer_index = as_it_is
 
 
 def linked(codes: list[llvm.ModuleRef]) -> bytes:
@@ -116,7 +101,6 @@ def write_web(folder: Path) -> None:
 
 def main(folder: Path) -> None:
     """Write the bitcode and the objects of all platforms, on as many processors as there are."""
-    _count_from_start_only()
     gc.disable()  # numba makes millions of objects here, of which hardly any go: looking for them takes long
     parts = len(EXPORTS) + len(TARGETS)
     codes: list[llvm.ModuleRef] = []
