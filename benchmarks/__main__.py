@@ -50,8 +50,10 @@ def _compare(folder: Path, progress: Console) -> list[Comparison]:
     comparisons = []
     for k, part in enumerate(PARTS, 1):
         progress.print(f"{k}/{len(PARTS)}  {part.title}")
+        own = folder / str(k)  # what a part has loaded, no other may write anew
+        own.mkdir()
         try:
-            comparisons += part.compare(folder, _ROUNDS)
+            comparisons += part.compare(own, _ROUNDS)
         except part.lacks as error:
             progress.print(f"     left out: {error}")
     return comparisons

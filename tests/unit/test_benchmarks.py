@@ -144,19 +144,23 @@ def test_c_of_another_mechanism_is_not_timed(engine: c_limit.Engine, tmp_path: P
 def surface(folder: Path) -> list[Comparison]:
     try:
         return native_surface.compare(folder, 1)
-    except NoCompilerError as error:
+    except (NoCompilerError, MechanismError) as error:
         pytest.skip(str(error))
 
 
 @pytest.mark.slow
 def test_native_fmu_and_bare_engine_are_timed(tmp_path: Path) -> None:
-    constant, changing, *others = surface(tmp_path)
-    assert min(changing.slow + changing.fast) > 2 * max(constant.slow + constant.fast), "no input changes"
-    assert len(others) == 3
+    assert [c.case for c in surface(tmp_path)] == [
+        "1 ms step, constant input",
+        "1 ms step, new input each step",
+        "what the surface adds to a step",
+        "instantiate .. exitInitializationMode",
+        "state saved and restored",
+    ]
 
 
 @pytest.mark.slow
-def test_an_fmu_that_does_not_get_the_input_is_not_timed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_two_that_do_not_get_the_same_input_are_not_timed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     right = native_surface._word
     others = {"drive_torque": "spring_preload", "wheel_speed": "wheel_speed"}
     monkeypatch.setattr(native_surface, "_word", lambda *of: right(*of[:-1], others[of[-1]]))

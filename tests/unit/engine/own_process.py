@@ -12,12 +12,12 @@ from typing import Any
 _HERE = Path(__file__).parent
 
 
-def run_script(name: str, **environment: str) -> Any:
+def run_script(name: str, *arguments: str, **environment: str) -> Any:
     """What the script prints, from JSON; numba's settings are those of `environment` only."""
     inherited = {key: value for key, value in os.environ.items() if not key.startswith("NUMBA_")}
     path = os.pathsep.join([str(_HERE.parents[2]), inherited.get("PYTHONPATH", "")])
     run = subprocess.run(
-        [sys.executable, str(_HERE / name)],
+        [sys.executable, str(_HERE / name), *arguments],
         env=inherited | {"PYTHONPATH": path} | environment,
         capture_output=True,
         text=True,
