@@ -1,6 +1,7 @@
 """Overlap of convex pieces by separating axes, in plain numpy and independently of the engine.
 
-Points are complex numbers x + i y. A piece is a convex polygon, anticlockwise. Two pieces overlap as deep as the least distance by which one would have to move along a normal of a side of either.
+Points are complex numbers x + i y. A piece is a convex polygon, anticlockwise. Two pieces overlap as deep as the least
+distance by which one would have to move along a normal of a side of either.
 """
 
 from __future__ import annotations
