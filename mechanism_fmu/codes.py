@@ -84,6 +84,18 @@ LET_GO = 2
 ALONG = 0
 ANGLE = 1
 
+# threshold_kind: what comes to zero where a force begins, ends, or goes over to another formula
+THRESHOLD_SIDE = 0  # the stretch of a one-sided spring
+THRESHOLD_PULL = 1  # the force of the same one, which never holds back
+THRESHOLD_CONDITION = 2  # the condition of an operation of a law
+THRESHOLD_PIECE = 3  # the way to the next piece of a curve
+
+# threshold_side (state): the sign of it in the present step; 0 where each evaluation decides for itself
+BELOW = -1
+UNDECIDED = 0
+ABOVE = 1
+CROSSES = 2  # times the sign: until the end of the step, where it comes to zero
+
 # term_data columns: a term of a curve is a polynomial and one harmonic
 POLYNOMIAL = 0
 AMPLITUDE = 6

@@ -21,6 +21,7 @@ OUT_OF_REACH = 17
 MANY_TOUCH = 18
 PENETRATED = 19
 PASSED_OVER = 20
+FORCE_PASSED_OVER = 21
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
 EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH, PENETRATED)
@@ -49,6 +50,8 @@ ADVICE = {
     "pattern's boundary run through the apex of its lines, or add the contact that is missing.",
     PASSED_OVER: "The integrator of the importing tool has stepped over the event of a contact. Let the tool locate "
     "state events, or give it a smaller tolerance or a smaller largest step.",
+    FORCE_PASSED_OVER: "The integrator of the importing tool has stepped over a stretch on which a force acts, or does "
+    "not. Let the tool locate state events, or give it a smaller tolerance or a smaller largest step.",
     CHATTERING: "The contacts open and close without end and without progress in time. Give a smaller restitution, or "
     "softer springs and smaller torques.",
     JAMMED: "No finite forces agree with friction from here on (Painleve's paradox; A/G, what a normal force does to "

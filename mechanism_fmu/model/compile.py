@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import codes, tables
 from ..tables.declare import Field, Table
+from ..tables.kinds import CHOICES
 from .beams import beam_data, beam_members, hinge
 from .body import GROUND
 from .checks.check import check
@@ -122,8 +123,11 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
     curves = [curve for _, curve in curve_owners(mechanism)]
     laws = [force.operations() for force in mechanism.elements]
     law_ends = np.cumsum([0, *map(len, laws)])
+    thresholds = [force.thresholds() for force in mechanism.elements]
+    first_thresholds = np.cumsum([0, *map(len, thresholds)]).tolist()
     by_table = [isinstance(force.law, Curve) for force in mechanism.elements]
     energies = count(len(curves) - sum(by_table))  # they are the last curves
+    energy_of = [next(energies) if has_table else codes.NONE for has_table in by_table]
     first_pieces = np.cumsum([0, *(len(curve.pieces) for curve in curves)])
     pieces = [piece for curve in curves for piece in curve.pieces]
     first_terms = np.cumsum([0, *(len(piece.terms) for piece in pieces)])
@@ -168,7 +172,8 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     own=[n if f.own else codes.NONE for f, n in _pairs(mechanism.elements, first_own)],
                     law=law_ends[:-1].tolist(),
                     law_end=law_ends[1:].tolist(),
-                    curve=[next(energies) if has_table else codes.NONE for has_table in by_table],
+                    curve=energy_of,
+                    threshold=[n if own else codes.NONE for own, n in _pairs(thresholds, first_thresholds)],
                 ),
                 columns(
                     tables.Operations,
@@ -179,6 +184,21 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                         for operation in law
                     ],
                     value=[operation.value for law in laws for operation in law],
+                    threshold=[
+                        first + own.index((codes.THRESHOLD_CONDITION, k)) if operation.code in CHOICES else codes.NONE
+                        for law, own, first in zip(laws, thresholds, first_thresholds[:-1], strict=True)
+                        for k, operation in enumerate(law)
+                    ],
+                ),
+                columns(
+                    tables.Thresholds,
+                    kind=[kind for own in thresholds for kind, _ in own],
+                    force=[k for k, own in enumerate(thresholds) for _ in own],
+                    subject=[
+                        number + (int(first_pieces[curve]) if curve != codes.NONE else first)
+                        for own, first, curve in zip(thresholds, law_ends.tolist()[:-1], energy_of, strict=True)
+                        for _, number in own
+                    ],
                 ),
                 columns(
                     tables.Contacts,

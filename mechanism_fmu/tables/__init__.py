@@ -32,4 +32,5 @@ from .parts import (
     Outlines as Outlines,
     Patterns as Patterns,
     Ports as Ports,
+    Thresholds as Thresholds,
 )

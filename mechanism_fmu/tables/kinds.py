@@ -103,3 +103,5 @@ OPERATIONS = Kinds(
     tanh="a",
     power="base exponent",
 )
+#: The numbers of those operations that choose between values.
+CHOICES = tuple(OPERATIONS.number(kind) for kind in ("minimum", "maximum", "where_positive"))

@@ -50,7 +50,8 @@ class Curves(Table, prefix="curve_"):
 class Forces(Table, rows="forces", prefix="force_"):
     """The force elements; `data` holds what inputs write, `own` says which of the own states is an element's first.
 
-    A nonlinear one has a law: the operations from `law` up to `law_end`, or the curve of its energy.
+    A nonlinear one has a law: the operations from `law` up to `law_end`, or the curve of its energy. `threshold` is the
+    first of its thresholds, or none.
     """
 
     kind = integer()
@@ -60,16 +61,37 @@ class Forces(Table, rows="forces", prefix="force_"):
     law = integer()
     law_end = integer()
     curve = integer()
+    threshold = integer()
     data = real(FORCES.width)
 
 
 class Operations(Table, rows="operations", prefix="operation_"):
-    """What laws of the user's own do, one after the other: `tables.kinds.OPERATIONS`, and of a constant its value."""
+    """Operations of laws of the user's own: `tables.kinds.OPERATIONS`; value of a constant, threshold of a choice."""
 
     kind = integer()
     operands = integer(3)
     value = real()
+    threshold = integer()
     result = real(work=True)
+
+
+class Thresholds(Table, rows="thresholds", prefix="threshold_"):
+    """Thresholds of force elements, where a force begins, ends or goes over to another formula: a step ends there.
+
+    `subject` is the operation, or the piece behind the threshold. State: its side (`codes.ABOVE` ...), the number of
+    crossings since a time [s] without progress. Scratch: the part of its value that is rounding, whether it has been on
+    its side in this step, its values at the last three looks.
+    """
+
+    kind = integer()
+    force = integer()
+    subject = integer()
+    side = integer(holds=whole(-codes.CROSSES, codes.CROSSES))
+    crossings = integer(holds=COUNT)
+    since = real(holds=FINITE)
+    rounding = real(work=True)
+    armed = integer(work=True)
+    looks = real(3, work=True)
 
 
 #: Columns of what is known of an oscillation, in the order of `codes`.

@@ -47,6 +47,7 @@ class Sizes:
     oscillations = _given()  # the last force elements
     wears = _given()  # contacts whose work of sliding is added up
     operations = _given()  # of laws of force
+    thresholds = _given()  # of force elements
     held = _given()
     inputs = _given()
     outputs = _given()
@@ -79,8 +80,8 @@ class Sizes:
     implicit_rates = _follows(lambda n: n["coordinates"] + n["y_wear"] - n["y_alpha"] if n["implicit"] > 0 else 0)
     # two a contact, two a pattern, one a logical function, one for each friction
     guards = _follows(lambda n: 2 * n["contacts"] + 2 * n["patterns"] + n["functions"] + n["rubs"])
-    # of Model Exchange: one for each guard, and one for how far the bodies have turned
-    indicators = _follows(lambda n: n["guards"] + 1)
+    # of Model Exchange: one for each guard, one for each threshold, and one for how far the bodies have turned
+    indicators = _follows(lambda n: n["guards"] + n["thresholds"] + 1)
     # what directional derivatives are of: outputs, and derivatives of the states
     responses = _follows(lambda n: n["outputs"] + n["unknowns"])
     rub_columns = _follows(lambda n: n["rubs"] + 1)

@@ -15,6 +15,7 @@ from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
+from ..dynamics.thresholds import decide_sides
 from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
 from .doubts import other_choice, undetermined
@@ -112,6 +113,8 @@ def transit(block: Array, guard: int, subject: int) -> int:
             impulse += _struck_impulse(block)
         struck = codes.NONE
     outcome = status.CHATTERING
+    if Sizes(block).thresholds > 0:
+        decide_sides(block)
     if settled:
         outcome = _settle(block, fired, stopped, only_choose, hits > 0, shocks)
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Loads, Pose
-from ...tables.parts import Forces
+from ...tables.parts import Forces, Thresholds
 from ..compiler.subset import jit
 
 
@@ -73,16 +74,27 @@ def acting(side: float, stretch: float) -> float:
 
 
 @jit
+def is_above(block: Array, threshold: int, value: float) -> bool:
+    """Whether a threshold is passed: by its side in the present step, else by its present value."""
+    side = Thresholds(block).side[threshold]
+    if side == codes.UNDECIDED:
+        return value > 0.0
+    above: bool = side > 0
+    return above
+
+
+@jit
 def spring_force(
-    stiffness: float, damping: float, preload: float, side: float, stretch: float, rate: float
+    block: Array, k: int, stiffness: float, damping: float, preload: float, side: float, stretch: float, rate: float
 ) -> tuple[float, float, float]:
     """Force or torque against the stretch of a spring-damper, and the powers that come in and are lost [W].
 
     A one-sided one does nothing on the other side, and never acts the other way.
     """
     if side != 0.0:
-        if side * stretch <= 0.0:
+        first = Forces(block).threshold[k]
+        if not is_above(block, first, side * stretch):
             return 0.0, 0.0, 0.0
-        if side * (stiffness * stretch + damping * rate + preload) < 0.0:
+        if not is_above(block, first + 1, side * (stiffness * stretch + damping * rate + preload)):
             return 0.0, 0.0, -stiffness * stretch * rate  # it would hold back: what it has stored is lost
     return stiffness * stretch + damping * rate + preload, -preload * rate, damping * rate * rate

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 
+from ... import codes
 from ...tables.declare import Array
 from ...tables.kinds import OPERATIONS
-from ...tables.parts import Forces, Operations
+from ...tables.parts import Curves, Forces, Operations, Thresholds
 from ..compiler.by_kind import by_kind
 from ..compiler.subset import jit, keep_small
 from ..elementary import atan2, cos, exp, log, power, sin, tan, tanh
-from ..profiles.curves import curve
+from ..profiles.curves import evaluate_piece, piece_at
 
 _CONSTANT = OPERATIONS.number("constant")
 _LENGTH = OPERATIONS.number("length")
 _RATE = OPERATIONS.number("rate")
+MINIMUM = OPERATIONS.number("minimum")
+WHERE = OPERATIONS.number("where_positive")
 
 
 @jit
@@ -133,7 +136,15 @@ _result = by_kind(
 
 
 @jit
-def _carried_out(block: Array, first: int, end: int, length: float, rate: float) -> float:
+def _chosen(kind: int, above: bool, a: float, b: float, c: float) -> float:
+    """The result of a choice whose condition (a, or a - b of the lesser and the greater) is above zero or is not."""
+    if kind == WHERE:
+        return b if above else c
+    return b if above == (kind == MINIMUM) else a
+
+
+@jit
+def carry_out(block: Array, first: int, end: int, length: float, rate: float) -> float:
     """The result of the last of the operations from `first` up to `end`."""
     table = Operations(block)
     result = table.result
@@ -147,7 +158,14 @@ def _carried_out(block: Array, first: int, end: int, length: float, rate: float)
             result[n] = rate
         else:
             of = table.operands[n]
-            result[n] = _result(kind, result[of[0]], result[of[1]], result[of[2]])
+            a, b, c = result[of[0]], result[of[1]], result[of[2]]
+            held = table.threshold[n]
+            chosen = math.nan
+            if held != codes.NONE and Thresholds(block).side[held] != codes.UNDECIDED:
+                chosen = _chosen(kind, Thresholds(block).side[held] > 0, a, b, c)
+            if math.isnan(chosen):  # beyond the threshold, what is chosen may have no value
+                chosen = _result(kind, a, b, c)
+            result[n] = chosen
     value: float = result[end - 1]
     return value
 
@@ -159,14 +177,24 @@ def by_law(block: Array, k: int, length: float, rate: float) -> tuple[float, flo
     table = Forces(block)
     if table.law[k] == table.law_end[k]:
         return law_energy(block, k, length)[1], 0.0, 0.0
-    pull = _carried_out(block, table.law[k], table.law_end[k], length, rate)
+    pull = carry_out(block, table.law[k], table.law_end[k], length, rate)
     return pull, -pull * rate, 0.0
 
 
 @jit
 def law_energy(block: Array, k: int, length: float) -> tuple[float, float]:
     """Energy of a law that is a table [J], and its derivative, which is the force or torque; of others zero."""
-    if Forces(block).curve[k] < 0:
+    number = Forces(block).curve[k]
+    if number < 0:
         return 0.0, 0.0
-    energy, slope, _, _ = curve(block, Forces(block).curve[k], length)
+    piece = piece_at(block, number, length)
+    first = Curves(block).piece[number]
+    last = first + Curves(block).pieces[number] - 1
+    behind = Forces(block).threshold[k] - first - 1  # of a piece, the threshold where it begins
+    side = Thresholds(block).side
+    while piece > first and side[behind + piece] < 0:
+        piece -= 1
+    while piece < last and side[behind + piece + 1] > 0:
+        piece += 1
+    energy, slope, _, _ = evaluate_piece(block, piece, length)
     return energy, slope

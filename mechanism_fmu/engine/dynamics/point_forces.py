@@ -112,7 +112,7 @@ def _between(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float
     keep_small()
     table = Forces(block)
     i, j = table.body[k], table.reaction[k]
-    line = _line(block, at, k)
+    line = line_between(block, at, k)
     pull, comes_in, goes = _pull(block, k, line)
     fx = pull * line.ux
     fy = pull * line.uy
@@ -127,7 +127,7 @@ def _between(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float
 
 
 @jit
-def _line(block: Array, at: Pose, k: int) -> Line:
+def line_between(block: Array, at: Pose, k: int) -> Line:
     """The line between the points of a spring."""
     keep_small()
     table = Forces(block)
@@ -165,13 +165,13 @@ def _pull(block: Array, k: int, line: Line) -> tuple[float, float, float]:
         return by_law(block, k, line.length, line.speed)
     data = Forces(block).data[k]
     stretch = line.length - data[FREE_LENGTH]
-    return spring_force(data[STIFFNESS], data[DAMPING], data[PRELOAD], data[SIDE], stretch, line.speed)
+    return spring_force(block, k, data[STIFFNESS], data[DAMPING], data[PRELOAD], data[SIDE], stretch, line.speed)
 
 
 @jit
 def _spring_damper_energy(block: Array, at: Pose, k: int, _y: Array) -> float:
     data = Forces(block).data[k]
-    stretch = acting(data[SIDE], _line(block, at, k).length - data[FREE_LENGTH])
+    stretch = acting(data[SIDE], line_between(block, at, k).length - data[FREE_LENGTH])
     energy: float = 0.5 * data[STIFFNESS] * stretch * stretch
     return energy
 
@@ -179,20 +179,20 @@ def _spring_damper_energy(block: Array, at: Pose, k: int, _y: Array) -> float:
 @jit
 def _spring_damper_power(block: Array, at: Pose, k: int, _y: Array, _dy: Array) -> float:
     data = Forces(block).data[k]
-    line = _line(block, at, k)
+    line = line_between(block, at, k)
     power: float = data[STIFFNESS] * acting(data[SIDE], line.length - data[FREE_LENGTH]) * line.speed
     return power
 
 
 @jit
 def _table_energy(block: Array, at: Pose, k: int, _y: Array) -> float:
-    energy: float = law_energy(block, k, _line(block, at, k).length)[0]
+    energy: float = law_energy(block, k, line_between(block, at, k).length)[0]
     return energy
 
 
 @jit
 def _table_power(block: Array, at: Pose, k: int, _y: Array, _dy: Array) -> float:
-    line = _line(block, at, k)
+    line = line_between(block, at, k)
     power: float = law_energy(block, k, line.length)[1] * line.speed
     return power
 
@@ -200,7 +200,7 @@ def _table_power(block: Array, at: Pose, k: int, _y: Array, _dy: Array) -> float
 @jit
 def _read_between(block: Array, at: Pose, k: int, _y: Array, which: int) -> float:
     keep_small()
-    line = _line(block, at, k)
+    line = line_between(block, at, k)
     if which == LENGTH:
         return line.length
     if which == RATE:
@@ -211,7 +211,7 @@ def _read_between(block: Array, at: Pose, k: int, _y: Array, which: int) -> floa
 
 @jit
 def _read_between_rate(block: Array, at: Pose, k: int, _dy: Array, which: int) -> float:
-    return _line(block, at, k).speed if which == LENGTH else math.nan
+    return line_between(block, at, k).speed if which == LENGTH else math.nan
 
 
 ELEMENTS = {

@@ -100,7 +100,8 @@ def _against(block: Array, at: Pose, k: int) -> tuple[float, float, float]:
     if Forces(block).kind[k] == _NONLINEAR:
         return by_law(block, k, angle, speed)
     data = Forces(block).data[k]
-    return spring_force(data[STIFFNESS], data[SPRING_DAMPING], data[CONSTANT], data[SIDE], angle - data[RELAXED], speed)
+    stretch = angle - data[RELAXED]
+    return spring_force(block, k, data[STIFFNESS], data[SPRING_DAMPING], data[CONSTANT], data[SIDE], stretch, speed)
 
 
 @jit

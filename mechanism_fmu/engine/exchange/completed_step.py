@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Exchange, Pose, Rubs
-from ...tables.parts import Contacts
+from ...tables.motion import Course, Exchange, Pose, Rubs, Stages
+from ...tables.parts import Contacts, Thresholds
 from ...tables.sizes import Sizes
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
@@ -22,6 +22,7 @@ from ..dynamics.oscillation import observe
 from ..stepping.step import watch_at
 from ..vectors import copy
 from .indicators import can_happen, evaluate, forget_apart, measure, unseen, what_forbids
+from .thresholds import passed_threshold, write_cubic
 
 #: A dip of the cubic through gaps and rates at two steps counts that is deeper than this part of the gaps there: it is
 #: no more accurate.
@@ -85,8 +86,14 @@ def look_through(block: Array) -> int:
         if contact != codes.NONE and overlap > 2.0 * unseen(block, contact):
             blame(block, contact, -overlap)
             return status.PASSED_OVER
+    if Sizes(block).thresholds > 0:
+        threshold = passed_threshold(block)
+        if threshold != codes.NONE:
+            Stages(block).stiffest[0] = Thresholds(block).force[threshold]
+            return status.FORCE_PASSED_OVER
     if size > 0.0:
-        _write_cubic(block, size)
+        now.clock[codes.STEP_START] = now.clock[codes.COMPLETED]
+        now.clock[codes.STEP_SIZE] = write_cubic(block, now.dense)
         observe(block)
         set_clock(block, now.clock[codes.TIME])
     watch_at(block, now.clock[codes.TIME])
@@ -143,22 +150,3 @@ def _slope(before: float, slope_before: float, after: float, slope_after: float,
     bend = slope_before - change
     last = change - slope_after - bend
     return change + (1.0 - 2.0 * x) * bend + x * (2.0 - 3.0 * x) * last
-
-
-@jit
-def _write_cubic(block: Array, size: float) -> None:
-    """The dense output of the importer's step: the cubic through unknowns and derivatives at both ends (Hermite)."""
-    keep_small()
-    now = Course(block)
-    table = Exchange(block)
-    now.clock[codes.STEP_START] = now.clock[codes.COMPLETED]
-    now.clock[codes.STEP_SIZE] = size
-    for i in range(now.y_end.shape[0]):
-        change = now.y_end[i] - table.seen_y[i]
-        bend = size * table.seen_rates[i] - change
-        for row in range(now.dense.shape[0]):
-            now.dense[row, i] = 0.0
-        now.dense[0, i] = table.seen_y[i]
-        now.dense[1, i] = change
-        now.dense[2, i] = bend
-        now.dense[3, i] = change - size * now.dy_end[i] - bend

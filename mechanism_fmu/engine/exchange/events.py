@@ -26,6 +26,7 @@ from ..contacts.inside import blame
 from ..contacts.transition import release, transit
 from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_positions, mend
 from ..dynamics.forces import inputs_changed, take_inputs
+from ..dynamics.thresholds import change_sides
 from ..outlines.nearest import MEETS, look_no_deeper, nearest
 from ..stepping.step_size import left_to_piece, smallest_step
 from ..stepping.stepper import restart
@@ -45,6 +46,7 @@ from .indicators import (
     what_forbids,
     write_indicators,
 )
+from .thresholds import cross_what_is_due
 
 #: An importer without a root finder may come no deeper than this part of the mechanism's size, or so many rad.
 _DEEPEST_SHARE = 5e-3
@@ -110,7 +112,9 @@ def _happen_in_turn(block: Array) -> tuple[int, bool]:
         at = evaluate(block)
         number = _first_due(block, at)
         if number == codes.NONE:
-            return status.OK, some
+            if not (Sizes(block).thresholds > 0 and cross_what_is_due(block, at)):
+                return status.OK, some
+            continue
         some = True
         guard, subject = happens(block, number)
         gap_closes = guard == codes.GUARD_GAP
@@ -216,6 +220,8 @@ def _settle(block: Array) -> None:
     keep_small()
     now = Course(block)
     table = Exchange(block)
+    if Sizes(block).thresholds > 0:
+        change_sides(block)
     restart(block)
     release(block, codes.NONE)
     at = place_bodies(block, now.y_end)

@@ -18,6 +18,8 @@
 - All bodies, where anything depends on their places: 1 - turn / MOST_TURN since the last completed step, so that no
   step turns over what happens twice within it.
 - A stop with memory, the end of a feature, a pattern's boundaries, a logical function: how far each is from its change.
+- Thresholds of forces: how far each is on its side; below zero also where it has been at zero since the last completed
+  step, by the cubic through states and rates at both ends of it.
 - Friction: the slip speed of what slips; what friction of what sticks could hold more.
 
 Each is scaled to order 1, and lifted above zero where an event has left it below (`events`). What cannot happen in
@@ -48,6 +50,7 @@ from ..elementary import sine_cosine
 from ..outlines.nearest import look_no_deeper
 from ..stepping.singular import SINGULAR_BELOW, independence
 from ..stepping.step_size import MOST_TURN
+from .thresholds import write_threshold_indicators
 
 #: By how much a leaving contact's indicator rises with its gap: so fast must it come back from a gap for that to be
 #: seen before the gap is zero [s].
@@ -250,7 +253,7 @@ def _coordinate(block: Array, k: int, which: int) -> float:
 def _before_turned(block: Array) -> float:
     """How much further the body that has turned most may turn, in parts of what it may."""
     keep_small()
-    if Sizes(block).guards == Sizes(block).rubs:
+    if Sizes(block).indicators == Sizes(block).rubs + 1:
         return 1.0
     most = 0.0
     for k in range(2, Sizes(block).coordinates, 3):
@@ -267,7 +270,9 @@ def write_indicators(block: Array) -> None:
     table = Exchange(block)
     for g in range(Sizes(block).guards):
         table.indicator[g] = indicator(block, at, g) + table.lift[g]
-    table.indicator[Sizes(block).guards] = _before_turned(block)
+    if Sizes(block).thresholds > 0:
+        write_threshold_indicators(block)
+    table.indicator[table.indicator.shape[0] - 1] = _before_turned(block)
 
 
 @jit

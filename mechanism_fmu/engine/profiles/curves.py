@@ -18,18 +18,34 @@ def curve(block: Array, number: int, x: float) -> tuple[float, float, float, flo
     """Value and first three derivatives of a curve at x."""
     keep_small()
     table = Curves(block)
-    first = table.piece[number]
-    last = first + table.pieces[number] - 1
     start = table.range[number, 0]
     if table.periodic[number] == 1:
         span = table.range[number, 1]
         x -= math.floor((x - start) / span) * span
-    while first < last:  # the last piece that begins at or before x
+    return evaluate_piece(block, piece_at(block, number, x), x)
+
+
+@jit
+def piece_at(block: Array, number: int, x: float) -> int:
+    """The last piece of a curve that begins at or before x, else the first one."""
+    keep_small()
+    table = Curves(block)
+    first: int = table.piece[number]
+    last = first + table.pieces[number] - 1
+    while first < last:
         middle = (first + last + 1) // 2
         if table.piece_start[middle] <= x:
             first = middle
         else:
             last = middle - 1
+    return first
+
+
+@jit
+def evaluate_piece(block: Array, first: int, x: float) -> tuple[float, float, float, float]:
+    """Value and first three derivatives of one piece of a curve, also beyond its ends."""
+    keep_small()
+    table = Curves(block)
     x -= table.piece_start[first]
     f0 = f1 = f2 = f3 = 0.0
     begin = table.piece_term[first]

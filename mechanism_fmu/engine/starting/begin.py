@@ -21,6 +21,7 @@ from ..contacts.guards import gap
 from ..contacts.impact import clear_impact, clear_records
 from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations
+from ..dynamics.thresholds import clear_sides
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..vectors import clear
@@ -88,6 +89,7 @@ def _begin_at_zero(block: Array, time: float) -> None:
     for k in range(Sizes(block).y_own, Sizes(block).unknowns):
         now.y_end[k] = 0.0
     begin_oscillations(block)
+    clear_sides(block, time)
 
 
 @jit

@@ -8,7 +8,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
 from ...tables.motion import Course, Implicit, LinearSystem, Stages
-from ...tables.parts import Contacts, Options
+from ...tables.parts import Contacts, Options, Thresholds
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
@@ -22,6 +22,7 @@ from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
+from .crossing import first_crossing, refine_crossing
 from .events import comes_down_beside, first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
@@ -111,7 +112,13 @@ def take_step(block: Array) -> int:
         _refuse(block, wanted, method)
         return _shock_or_fail(block)
     guard, subject, fraction = first_event(block)
-    if guard != codes.GUARD_NONE or singular:
+    crossing = codes.NONE
+    if Sizes(block).thresholds > 0 and fraction > 0.0:
+        crossing, fraction = first_crossing(block, fraction)
+        if crossing != codes.NONE:  # no event, but the step ends there
+            guard, subject = codes.GUARD_NONE, codes.NONE
+    ends = guard != codes.GUARD_NONE or crossing != codes.NONE
+    if ends or singular:
         clear(Contacts(block).apart)  # what it says is of the end of a step that does not come to that
     if fraction < 0.0:
         _refuse(block, wanted, method)
@@ -122,10 +129,13 @@ def take_step(block: Array) -> int:
         guard = codes.GUARD_NONE
         subject = codes.NONE
         fraction *= 0.5
-    if guard != codes.GUARD_NONE or hops:
+    if ends or hops:
         step *= fraction
         if step > smallest_step(start):
-            step = _end_at_event(block, guard, subject, start, step)
+            if crossing != codes.NONE:
+                step = refine_crossing(block, crossing, step)
+            else:
+                step = _end_at_event(block, guard, subject, start, step)
             if math.isnan(s.y_new[Sizes(block).y_loss]):
                 _refuse(block, wanted, method)
                 return _shock_or_fail(block)
@@ -139,6 +149,8 @@ def take_step(block: Array) -> int:
     keep_independence(block)
     now.counters[codes.PENDING_GUARD] = guard
     now.counters[codes.PENDING_SUBJECT] = subject
+    if crossing != codes.NONE:
+        Thresholds(block).side[crossing] *= codes.CROSSES
     if step == 0.0:
         return status.OK
     _keep(block, start, step)

@@ -100,8 +100,8 @@ def _periods_before(block: Array, number: int, start: float) -> float:
 _ERROR_EXPONENT = METHOD.error_exponent
 #: Smallest step as a fraction of max(1 s, |t|).
 _SMALLEST_STEP = 1e-15
-#: Where there are guards, no body turns further than this in one step [rad]: a step without error may be of any length,
-#: and would pass over what a turning point meets in every turn.
+#: Where there are guards or thresholds, no body turns further than this in one step [rad]: a step without error may be
+#: of any length, and would pass over what a turning point meets in every turn.
 MOST_TURN = 1.0
 #: Where steps shrink to nothing and profiles fit less well than this, that is why [rad/rad].
 _FITS_BARELY = 0.01
@@ -181,7 +181,7 @@ def _try(block: Array, start: float, step: float) -> float:
     keep_small()
     s = Stages(block)
     error = try_step(block, start, step)
-    if Sizes(block).guards == Sizes(block).rubs:  # none of positions: slip is as smooth as the motion
+    if Sizes(block).indicators == Sizes(block).rubs + 1:  # none of positions: slip is as smooth as the motion
         return error
     turn = 0.0
     for k in range(2, Sizes(block).coordinates, 3):

@@ -14,6 +14,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Implicit, Stages
 from ...tables.parts import Contacts, Options, Ports
+from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import entry, jit, keep_small
 from ..contacts.impact import clear_records
@@ -22,6 +23,7 @@ from ..contacts.transition import release, transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..dynamics.oscillation import observe
+from ..dynamics.thresholds import change_sides
 from ..interpolation import interpolate
 from ..vectors import clear, copy
 from .passing import passed_in_step, read_passed
@@ -143,6 +145,9 @@ def _move(block: Array, target: float, rule: int) -> int:
             now.counters[codes.FALLING] = 0  # what was before belongs to other rows
             restart(block)
             now.clock[codes.NEXT_STEP] = initial_step_size(block)
+        elif Sizes(block).thresholds > 0 and change_sides(block):
+            restart(block)  # a long step would feel what begins to act in its first stages alone
+            now.clock[codes.NEXT_STEP] = min(now.clock[codes.NEXT_STEP], initial_step_size(block))
         struck = now.counters[codes.COUNT_IMPACTS] > impacts
         stops = rule & codes.STOP_AT_STEP or (rule & codes.STOP_AT_IMPACT and struck)
         if stops or (rule & codes.STOP_AT_EVENT and guard != codes.GUARD_NONE):

@@ -77,6 +77,7 @@ def _labels(table: str, mechanism: Mechanism) -> list[str]:
         "joint": [joint.name for joint in mechanism.joints],
         "force": [force.name for force in mechanism.elements],
         "operation": [force.name for force in mechanism.elements for _ in force.operations()],
+        "threshold": [force.name for force in mechanism.elements for _ in force.thresholds()],
         "contact": [contact.name for contact in mechanism.contacts],
         "feature": [owner for owner, chain in zip(outlines.owners, outlines.features, strict=True) for _ in chain],
         "outline": outlines.owners,

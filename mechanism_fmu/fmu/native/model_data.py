@@ -107,6 +107,7 @@ def _names(mechanism: Mechanism) -> ModelData:
         "patterns": _texts("PATTERNS", (pattern.name for pattern in mechanism.patterns)),
         "functions": _texts("FUNCTIONS", (function.name for function in mechanism.functions)),
         "rubs": _texts("RUBS", (part.name for part in mechanism.rubbing)),
+        "elements": _texts("ELEMENTS", (element.name for element in mechanism.elements)),
         "unknowns": _texts("UNKNOWNS", unknown_names(mechanism)),
     }
 

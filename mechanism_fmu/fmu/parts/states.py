@@ -85,9 +85,10 @@ def state_variables(mechanism: Mechanism, first: int, taken: Collection[str]) ->
 
 
 def indicator_count(mechanism: Mechanism) -> int:
-    """How many event indicators a mechanism has: one for each guard of the engine, and one for turns."""
+    """How many event indicators a mechanism has: one for each guard and threshold, one for turns."""
     guards = 2 * (len(mechanism.contacts) + len(mechanism.patterns)) + len(mechanism.functions)
-    return guards + len(mechanism.rubbing) + 1
+    thresholds = sum(len(force.thresholds()) for force in mechanism.elements)
+    return guards + len(mechanism.rubbing) + thresholds + 1
 
 
 def _states(mechanism: Mechanism) -> Iterator[State]:

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, NamedTuple
 
-from ...tables.kinds import FORCES
+from ... import codes
+from ...tables.kinds import CHOICES, FORCES
 from ..attached import Attached, Slot
 from ..body import GROUND, Point
 from ..curves import Curve
@@ -101,6 +102,19 @@ class Element(Attached):
             MechanismError: the curve has none.
         """
         return potential(self.law, self._label) if isinstance(self.law, Curve) else None
+
+    def thresholds(self) -> list[tuple[int, int]]:
+        """Where its force begins, ends or changes its formula: kinds, and the operation or piece of its law.
+
+        Raises:
+            MechanismError: its law cannot be recorded, or `one_sided` is no such word.
+        """
+        if self.side != 0.0:
+            return [(codes.THRESHOLD_SIDE, 0), (codes.THRESHOLD_PULL, 0)]
+        if isinstance(self.law, Curve):
+            return [(codes.THRESHOLD_PIECE, piece) for piece in range(1, len(self.law.pieces))]
+        choices = [k for k, operation in enumerate(self.operations()) if operation.code in CHOICES]
+        return [(codes.THRESHOLD_CONDITION, k) for k in choices]
 
     @property
     def side(self) -> float:

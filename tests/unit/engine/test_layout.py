@@ -24,6 +24,7 @@ GIVEN = {
     "oscillations": 2,
     "wears": 3,
     "operations": 3,
+    "thresholds": 4,
     "held": 1,
     "inputs": 6,
     "outputs": 7,

@@ -78,6 +78,7 @@ typedef struct {
     const char *const *patterns;
     const char *const *functions;
     const char *const *rubs;
+    const char *const *elements;
     const char *const *unknowns; /* of the engine, as messages name them */
     const Rule *rules;           /* what the words of the state may hold */
     size_t rule_count;
