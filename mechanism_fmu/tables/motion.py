@@ -22,7 +22,6 @@ _CLOCK = {
     "STEP_END": FINITE,
     "STEP_SIZE": NOT_NEGATIVE,
     "NEXT_STEP": NOT_NEGATIVE._replace(high=math.inf, nan=True),
-    "LAST_EVENT": FINITE,
     "RAMP_START": FINITE,
     "RAMP_END": FINITE,
     "STEP_BEGUN": FINITE,
@@ -82,7 +81,8 @@ _EVENT = {
 class Course(Table):
     """How far the motion has come.
 
-    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss, alpha, own) and its derivative at the end
+    Clock, counters and ledger (columns in `codes`); of each body, when its run of events without progress began, and
+    how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end
     of the engine's own step, and the step's dense output; how independent the active rows are there (see `singular`);
     the last impact, and impacts and events of the last communication step.
     """
@@ -90,6 +90,7 @@ class Course(Table):
     clock = real(codes.CLOCK_LENGTH, holds=_CLOCK)
     counters = integer(codes.COUNTERS_LENGTH, holds=_COUNTERS)
     ledger = real(codes.LEDGER_LENGTH, holds=FINITE)
+    accumulation = real("bodies", 2, holds=FINITE)
     y_end = real("unknowns", holds=FINITE)
     dy_end = real("unknowns", holds=ANY)
     dense = real(METHOD.dense_rows, "unknowns", holds=FINITE)
@@ -269,7 +270,8 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
     (columns in `complementarity`); all rates before the impact, and before its present round; whether each contact is
     closed for that; its coefficient of restitution and impulse of compression; the line along which a point slides; its
-    mode before the event, and before what happens within it.
+    mode before the event, and before what happens within it. Of each body the island in which it takes part in the event
+    (see `contacts.participation`); of each island, one more than the last round in which a contact approached, or 0.
     """
 
     role = integer(work=True)
@@ -285,6 +287,8 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     compression = real(work=True)
     tangent_line = real(4, alone=True, name="tangent_line", work=True)
     earlier = integer(2, work=True)
+    island = integer("frames", alone=True, name="event_island", work=True)
+    approached = integer("frames", alone=True, name="event_approached", work=True)
 
 
 class Watch(Table, rows="guards", prefix="guard_"):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Pose
+from ...tables.motion import Pose, Strikes
 from ...tables.parts import Contacts, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
@@ -92,9 +92,13 @@ def let_loose(block: Array, contact: int) -> None:
 
 @jit
 def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
-    """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status."""
+    """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status.
+
+    Of outlines, one of which takes part in the event (`participation`).
+    """
     keep_apart()
     table = Contacts(block)
+    island = Strikes(block).island
     look_no_deeper(block, 0.0)
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c):
@@ -106,6 +110,8 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
             let_loose(block, c)
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c) or table.group[c] != c or table.value[c, codes.ENABLED] < 0.5:
+            continue
+        if island[table.body_i[c]] == codes.NONE and island[table.body_j[c]] == codes.NONE:
             continue
         if table.apart[c] > TOUCHES_WITHIN and not _is_bound(block, c):
             continue  # as far as its outlines are apart, nothing that has happened concerns it

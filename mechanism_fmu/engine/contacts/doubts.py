@@ -17,6 +17,7 @@ from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slip
 from ..dynamics.dependent_rows import take_out_range
 from ..vectors import copy
 from .complementarity import agrees
+from .participation import island_of
 from .trial import COUNT
 
 #: A row that lies this near to what the others determine is determined by them.
@@ -73,7 +74,8 @@ def undetermined(block: Array, count: int) -> int:
     if LinearSystem(block).rank[0] >= count:
         return codes.NONE
     for k in range(table.slip.shape[0]):
-        if slips(block, k) and k < Sizes(block).contacts + Sizes(block).joints:
+        takes_part = slips(block, k) and island_of(block, k) != codes.NONE
+        if takes_part and k < Sizes(block).contacts + Sizes(block).joints:
             first = _first_row(block, k)
             if _moves(block, first, count) or (_is_pin(block, k) and _moves(block, first + 1, count)):
                 return k

@@ -20,6 +20,7 @@ from ..constraints.wear import wear_by_impact
 from ..dynamics.acceleration import LEAST_DRIFT, mend
 from .guards import gap
 from .impact_laws import exchange
+from .participation import island_of
 from .rubbing import note_sticks, set_noted
 from .trial import ABSENT, COUNT, DECIDED, KEPT
 
@@ -49,12 +50,12 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     taking_part = Strikes(block)
     rate = Course(block).y_end[n:]
     at = place_bodies(block, Course(block).y_end)
-    if not _cast(block, at, struck, round_ >= _PLASTIC_FROM):
+    if not _cast(block, at, struck, round_):
         return False, status.OK
     if round_ == 0 and rubs(block):
         _mend_rates(block)
         at = place_bodies(block, Course(block).y_end)
-        if not _cast(block, at, struck, False):
+        if not _cast(block, at, struck, round_):
             return False, status.OK
     count = 0
     for c in range(table.mode.shape[0]):
@@ -91,12 +92,16 @@ def _mend_rates(block: Array) -> None:
 
 
 @jit
-def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
-    """Give every contact its role, closing speed and target; whether any of them approaches."""
+def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
+    """Give every contact its role, closing speed and target; whether any of them approaches.
+
+    Where none of an island does, none of it takes part.
+    """
     keep_small()
     table = Contacts(block)
     taking_part = Strikes(block)
-    approached = False
+    plastic = round_ >= _PLASTIC_FROM
+    some = False
     sticks_below = STICK_SPEED
     if Course(block).counters[codes.PILE] >= PILED:
         sticks_below = RESTS_WHERE_PILED
@@ -104,7 +109,8 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
         taking_part.role[c] = ABSENT
         taking_part.closing[c] = 0.0
         taking_part.target[c] = 0.0
-        if table.value[c, codes.ENABLED] < 0.5:
+        island = island_of(block, c)
+        if island == codes.NONE or table.value[c, codes.ENABLED] < 0.5:
             continue
         closed = table.mode[c] == codes.CLOSED
         guided = table.value[c, codes.GUIDED] > 0.5
@@ -117,7 +123,9 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
             if closed:
                 taking_part.role[c] = KEPT
                 taking_part.target[c] = -rate
-                approached = approached or abs(rate) > RESTS_BELOW
+                if abs(rate) > RESTS_BELOW:
+                    taking_part.approached[island] = round_ + 1
+                    some = True
                 if abs(rate) >= STICK_SPEED:  # switched on in motion, from either side; below, drift and rounding
                     taking_part.closing[c] = abs(rate)
             continue
@@ -134,12 +142,17 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
             # That keeps the problem solvable (by reversing all rates) and the energy from growing.
             taking_part.target[c] = -2.0 * rate
         if approaches:
-            approached = True
+            taking_part.approached[island] = round_ + 1
+            some = True
             taking_part.closing[c] = -rate
             restitution = table.value[c, codes.RESTITUTION]
             if not plastic and restitution * -rate >= sticks_below:
                 taking_part.target[c] = (1.0 + restitution) * -rate
-    return approached
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] == DECIDED and taking_part.approached[island_of(block, c)] != round_ + 1:
+            taking_part.role[c] = ABSENT
+            taking_part.target[c] = 0.0
+    return some
 
 
 @jit

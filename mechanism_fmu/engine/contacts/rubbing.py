@@ -11,6 +11,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
+from .participation import island_of
 
 
 @jit
@@ -29,7 +30,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
     At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
-    whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
+    whose slip has just been found to end, whatever speed the instant's rounding leaves. What takes no part in the event
+    stays as it is. It is taken to stick, unless it
     has just let go; where it has not stuck before, it does so here. All that has friction is looked at where not
     `only_touching`.
     """
@@ -42,6 +44,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
+        if island_of(block, k) == codes.NONE:
+            continue
         if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
             continue
         begins = table.slip[k] != codes.STICKS
@@ -70,6 +74,8 @@ def free_all(block: Array) -> None:
     at = place_bodies(block, Course(block).y_end)
     look_at_slip(block, at, False, codes.NONE)
     for k in range(table.slip.shape[0]):
+        if island_of(block, k) == codes.NONE:
+            continue
         if k >= Sizes(block).contacts + Sizes(block).joints:
             table.free[k] = codes.BOUND
             table.slip[k] = codes.APART

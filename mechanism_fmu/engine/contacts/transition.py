@@ -5,7 +5,7 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rubs, Strikes
-from ...tables.parts import Bodies, Contacts, Functions, Options, Patterns
+from ...tables.parts import Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
@@ -14,7 +14,7 @@ from ..constraints.friction_rows import rubs, slips, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
-from ..dynamics.forces import kinetic_energy, set_time
+from ..dynamics.forces import set_time
 from ..dynamics.thresholds import decide_sides
 from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
@@ -25,6 +25,7 @@ from .handover import hand_over
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, strike
 from .impact_laws import shock
 from .inside import is_one_inside
+from .participation import find_participants, island_of, participants_energy
 from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
 from .trial import COUNT
 
@@ -80,25 +81,23 @@ def transit(block: Array, guard: int, subject: int) -> int:
     keep_small()
     only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
     shocks = guard == codes.GUARD_SHOCK
-    n = Sizes(block).coordinates
     now = Course(block)
-    rate = now.y_end[n:]
-    inverse_mass = Bodies(block).inverse_mass
     note_mode(block, EVENT)
-    energy = kinetic_energy(inverse_mass, rate, n)
-    work = now.y_end[Sizes(block).y_work]
+    find_participants(block, place_bodies(block, now.y_end), guard, subject)
     if guard == codes.GUARD_INPUT:
         note_sticks(block)
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
+    _note_accumulation(block)
+    energy = participants_energy(block)
+    work = now.y_end[Sizes(block).y_work]
     struck = subject if guard == codes.GUARD_GAP else codes.NONE
     fired = struck
     stopped = codes.NONE
     if guard == codes.GUARD_STICK:
         stopped = subject
     impulse = 0.0
-    hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
     settled = only_choose or shocks
     for round_ in range(MOST_ROUNDS):
@@ -109,15 +108,14 @@ def transit(block: Array, guard: int, subject: int) -> int:
             return outcome
         settled = not approached
         if approached:
-            hits += 1
             impulse += _struck_impulse(block)
         struck = codes.NONE
     outcome = status.CHATTERING
     if Sizes(block).thresholds > 0:
         decide_sides(block)
     if settled:
-        outcome = _settle(block, fired, stopped, only_choose, hits > 0, shocks)
-    lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
+        outcome = _settle(block, fired, stopped, only_choose, shocks)
+    lost = energy + (now.y_end[Sizes(block).y_work] - work) - participants_energy(block)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome
@@ -163,9 +161,14 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
     if guard == codes.GUARD_HANDOVER:
         hand_over(block, at, subject)
     if Sizes(block).outlines > 0:
-        outcome = bind_what_touches(block, at, subject if guard == codes.GUARD_GAP else codes.NONE)
-        if outcome != status.OK:
-            return outcome
+        participants = 0
+        joined = find_participants(block, at, guard, subject)
+        while joined > participants:
+            outcome = bind_what_touches(block, at, subject if guard == codes.GUARD_GAP else codes.NONE)
+            if outcome != status.OK:
+                return outcome
+            participants = joined
+            joined = find_participants(block, at, guard, subject)
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
         Patterns(block).copy[subject] += -1 if guard == codes.GUARD_PREVIOUS else 1
         place_pattern(block, at, subject)
@@ -213,7 +216,7 @@ def switch_contacts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool, shocks: bool) -> int:
+def _settle(block: Array, fired: int, stopped: int, only_choose: bool, shocks: bool) -> int:
     """Choose, among the contacts that touch and rest, those that push, and how friction slips.
 
     `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has. An impact without approach
@@ -221,17 +224,18 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     """
     keep_small()
     table = Contacts(block)
-    near = GAP_NOISE
-    slow = RESTS_BELOW
-    if hit:
-        near = TOUCHES_WITHIN
-        slow = STICK_SPEED
     at = place_bodies(block, Course(block).y_end)
     count = 0
     for c in range(table.mode.shape[0]):
-        if table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
+        island = island_of(block, c)
+        if island == codes.NONE or table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
             continue
         if table.mode[c] == codes.OPEN:
+            near = GAP_NOISE
+            slow = RESTS_BELOW
+            if Strikes(block).approached[island] > 0:
+                near = TOUCHES_WITHIN
+                slow = STICK_SPEED
             distance, rate = gap(block, at, c)
             if (distance > near and c != fired) or not abs(rate) < slow:
                 continue
@@ -317,15 +321,28 @@ def _record_doubts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _progress(block: Array) -> int:
-    """Count events that follow each other without progress in time."""
+def _note_accumulation(block: Array) -> None:
+    """Write to PILE how many events without progress in time have concerned what takes part in the present one."""
     keep_small()
     now = Course(block)
-    time = now.clock[codes.STEP_END]
-    if time - now.clock[codes.LAST_EVENT] > PILE_TIME:
-        now.clock[codes.LAST_EVENT] = time
-        now.counters[codes.PILE] = 0
+    now.counters[codes.PILE] = 0
+    for b in range(now.accumulation.shape[0]):
+        if Strikes(block).island[b] != codes.NONE:
+            if now.clock[codes.STEP_END] - now.accumulation[b, 0] > PILE_TIME:
+                now.accumulation[b, 0] = now.clock[codes.STEP_END]
+                now.accumulation[b, 1] = 0.0
+            now.counters[codes.PILE] = max(now.counters[codes.PILE], int(now.accumulation[b, 1]))
+
+
+@jit
+def _progress(block: Array) -> int:
+    """Count events that follow each other without progress in time, of each body."""
+    keep_small()
+    now = Course(block)
     now.counters[codes.PILE] += 1
+    for b in range(now.accumulation.shape[0]):
+        if Strikes(block).island[b] != codes.NONE:
+            now.accumulation[b, 1] += 1.0
     if now.counters[codes.PILE] > MOST_PILED:
         return status.CHATTERING
     return status.OK
