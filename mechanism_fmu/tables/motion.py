@@ -55,6 +55,8 @@ _COUNTERS = {
     "COUNT_BACK": COUNT,
     "COUNT_PASSED": COUNT,
     "IMPLICIT_STEP": whole(0, 0, "may_be_implicit"),
+    "FIRST_IMPACT": whole(0, -1, "buffer"),
+    "FIRST_EVENT": whole(0, -1, "event_buffer"),
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
@@ -84,7 +86,7 @@ class Course(Table):
     Clock, counters and ledger (columns in `codes`); of each body, when its run of events without progress began, and
     how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end
     of the engine's own step, and the step's dense output; how independent the active rows are there (see `singular`);
-    the last impact, and impacts and events of the last communication step.
+    the last impact, and impacts and events of the last communication step, in buffers that go round.
     """
 
     clock = real(codes.CLOCK_LENGTH, holds=_CLOCK)
@@ -270,8 +272,9 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
     (columns in `complementarity`); all rates before the impact, and before its present round; whether each contact is
     closed for that; its coefficient of restitution and impulse of compression; the line along which a point slides; its
-    mode before the event, and before what happens within it. Of each body the island in which it takes part in the event
-    (see `contacts.participation`); of each island, one more than the last round in which a contact approached, or 0.
+    mode before the event, and before what happens within it. Of each body the island in which it takes part in the
+    event (see `contacts.participation`); of each island one more than the last round in which a contact approached, or
+    0.
     """
 
     role = integer(work=True)
@@ -279,7 +282,7 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     closing = real(work=True)
     impulse = real(work=True)
     candidates = integer(name="candidates", work=True)
-    problem = integer(3, alone=True, name="problem", work=True)
+    problem = integer(4, alone=True, name="problem", work=True)
     rates_before = real("coordinates", alone=True, name="rates_before", work=True)
     rates_of_round = real("coordinates", alone=True, name="rates_of_round", work=True)
     closed = integer(work=True)

@@ -182,8 +182,7 @@ def _open_what_leaves(block: Array) -> None:
 def _keep_impacts(block: Array) -> None:
     """Record the impacts of all contacts that strike, in their order.
 
-    Of more than the buffer holds, as where hundreds land at once, the first ones are only counted, and space is made
-    for all others together: each on its own would move the whole buffer.
+    Of more than the buffer holds, as where hundreds land at once, the first ones are only counted.
     """
     keep_small()
     now = Course(block)
@@ -195,11 +194,6 @@ def _keep_impacts(block: Array) -> None:
     passed = max(0, strikes - now.impacts.shape[0])
     now.counters[codes.COUNT_IMPACTS] += passed
     now.counters[codes.COUNT_LOST] += passed
-    over = max(0, now.counters[codes.COUNT_IN_STEP] + strikes - passed - now.impacts.shape[0])
-    if over > 0:
-        make_space(now.impacts, over)
-        now.counters[codes.COUNT_IN_STEP] -= over
-        now.counters[codes.COUNT_LOST] += over
     for c in range(taking_part.role.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
             if passed > 0:
@@ -232,13 +226,9 @@ def keep_impact(block: Array, contact: int) -> None:
     _share(block, record)
 
     now.counters[codes.COUNT_IMPACTS] += 1
-    place = now.counters[codes.COUNT_IN_STEP]
-    if place == now.impacts.shape[0]:
+    if now.counters[codes.COUNT_IN_STEP] == now.impacts.shape[0]:
         now.counters[codes.COUNT_LOST] += 1
-        make_space(now.impacts, place + 1 - now.impacts.shape[0])
-        place -= 1
-    else:
-        now.counters[codes.COUNT_IN_STEP] = place + 1
+    place = next_place(now.counters, codes.COUNT_IN_STEP, codes.FIRST_IMPACT, now.impacts.shape[0])
     for k in range(now.impacts.shape[1]):
         now.impacts[place, k] = record[k]
 
@@ -257,8 +247,9 @@ def complete_impacts(block: Array, made: int, energy: float) -> None:
     now.counters[codes.COUNT_INSTANTS] += 1
     kept: int = now.counters[codes.COUNT_IN_STEP]
     for b in range(max(0, kept - made), kept):
-        _share(block, now.impacts[b])
-        now.impacts[b, codes.RECORD_ENERGY] = energy
+        record = now.impacts[(now.counters[codes.FIRST_IMPACT] + b) % now.impacts.shape[0]]
+        _share(block, record)
+        record[codes.RECORD_ENERGY] = energy
     _share(block, now.last_impact)
     now.last_impact[codes.RECORD_ENERGY] = energy
 
@@ -301,10 +292,12 @@ def clear_records(block: Array) -> None:
     for b in range(now.counters[codes.COUNT_IN_STEP]):
         clear_impact(now.impacts[b])
     now.counters[codes.COUNT_IN_STEP] = 0
+    now.counters[codes.FIRST_IMPACT] = 0
     for b in range(now.counters[codes.EVENTS_IN_STEP]):
         for k in range(now.events.shape[1]):
             now.events[b, k] = 0.0
     now.counters[codes.EVENTS_IN_STEP] = 0
+    now.counters[codes.FIRST_EVENT] = 0
 
 
 @jit
@@ -323,8 +316,15 @@ def _copy(block: Array, contact: int) -> int:
 
 
 @jit
-def make_space(buffer: Array, rows: int) -> None:
-    """Drop the first rows and move the others up."""
-    for b in range(buffer.shape[0] - rows):
-        for k in range(buffer.shape[1]):
-            buffer[b, k] = buffer[b + rows, k]
+def next_place(counters: Array, kept: int, first: int, places: int) -> int:
+    """The place of the next record in a buffer that goes round; where it is full, the oldest record is lost.
+
+    The counters `kept` and `first` say how many records there are, and where the oldest one is.
+    """
+    keep_small()
+    place: int = (counters[first] + counters[kept]) % places
+    if counters[kept] == places:
+        counters[first] = (place + 1) % places
+    else:
+        counters[kept] += 1
+    return place

@@ -135,9 +135,9 @@ static void name_event(int guard, int subject, char *text, size_t size) {
 }
 
 static void log_impacts(Instance *x) {
-    size_t columns = SIZE(x, record);
+    size_t first = (size_t)COUNTERS(x)[CODE_FIRST_IMPACT]; /* the buffers go round */
     for (int64_t k = 0; k < COUNTERS(x)[CODE_COUNT_IN_STEP]; k++) {
-        const double *record = FIELD(x, impacts) + (size_t)k * columns;
+        const double *record = FIELD(x, impacts) + (first + (size_t)k) % SIZE(x, buffer) * SIZE(x, record);
         say(x, OK, "logEvents", "Impact on %s at t = %.12g s: closing speed %.6g m/s, impulse %.6g N.s.",
             model.contacts[(int)record[CODE_RECORD_CONTACT]].name, record[CODE_RECORD_TIME],
             record[CODE_RECORD_CLOSING_SPEED], record[CODE_RECORD_IMPULSE]);
@@ -152,8 +152,9 @@ static void log_events(Instance *x, int64_t new_events) {
         say(x, OK, "logEvents",
             "%lld events of the step to t = %.9g s are not listed one by one; the last %lld follow.",
             (long long)(new_events - known), time_of(x), (long long)known);
+    size_t first = (size_t)COUNTERS(x)[CODE_FIRST_EVENT];
     for (int64_t k = 0; k < known; k++) {
-        const double *record = FIELD(x, events) + (size_t)k * SIZE(x, event);
+        const double *record = FIELD(x, events) + (first + (size_t)k) % SIZE(x, event_buffer) * SIZE(x, event);
         double impulse = record[CODE_EVENT_IMPULSE];
         char event[200], old_mode[600], new_mode[600], change[1300] = "";
         name_event((int)record[CODE_EVENT_GUARD], (int)record[CODE_EVENT_SUBJECT], event, sizeof event);
