@@ -11,7 +11,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Strikes
 from ...tables.parts import Bodies, Contacts, Forces, Joints, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import PILED, RESTS_BELOW, TOUCHES_WITHIN
+from ...tolerances import PILED, RESTS_BELOW, ROOT_TOLERANCE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import BRAKE, rubs
 from ..dynamics.islands import leader_of
@@ -127,12 +127,12 @@ def _touches(block: Array, at: Pose, contact: int) -> bool:
 
 @jit
 def _closes_now(block: Array, at: Pose, contact: int) -> bool:
-    """Whether an open contact would strike at the very start of the next step, at this instant."""
+    """Whether an open contact closes at this instant, as closely as instants of events are found."""
     keep_small()
     if not _exists_open(block, contact):
         return False
     distance, rate = gap(block, at, contact)
-    return distance <= 0.0 and rate < -RESTS_BELOW
+    return distance <= -ROOT_TOLERANCE * rate and rate < -RESTS_BELOW
 
 
 @jit
