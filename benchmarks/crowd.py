@@ -38,7 +38,7 @@ _WITHIN = 1e-9
 
 def heights(count: int) -> list[float]:
     """Heights from which the balls fall [m], the same each time."""
-    return np.random.default_rng(count).uniform(0.5, 1.5, count).tolist()
+    return [float(height) for height in np.random.default_rng(count).uniform(0.5, 1.5, count)]
 
 
 def crowd(count: int) -> Mechanism:
