@@ -1,4 +1,4 @@
-"""The watch for overlaps against separating axes, where numbers are special: equal sizes, sides on sides, lattice places.
+"""The watch for overlaps against separating axes at special numbers: equal sizes, sides on sides, lattice places.
 
 It is asked at the start, where nothing else decides, and in a motion whose state is written from outside.
 """

@@ -69,16 +69,17 @@ def _deepest_within(
         if radius > 0.0:
             for g in range(table.first[other], table.first[other] + table.count[other]):
                 gap, nx, ny = apart(block, g, cx, cy, radius)
-                if gap < -deepest and is_over(block, g, cx, cy):
-                    if is_over_arc(block, f, -c * nx - s * ny, s * nx - c * ny):
-                        px, py = cx - radius * nx, cy - radius * ny
-                        deepest = max(deepest, depth_of(block, other, px, py, deepest))
+                if not (gap < -deepest and is_over(block, g, cx, cy)):
+                    continue
+                if is_over_arc(block, f, -c * nx - s * ny, s * nx - c * ny):
+                    px, py = cx - radius * nx, cy - radius * ny
+                    deepest = max(deepest, depth_of(block, other, px, py, deepest))
     return deepest
 
 
 @jit
 def depth_of(block: Array, outline: int, px: float, py: float, least: float) -> float:
-    """Depth of a point within the material of a closed outline [m]; 0 where it lies outside, or not deeper than `least`.
+    """Depth of a point within the material of a closed outline [m]; 0 where it is outside, or no deeper than `least`.
 
     A ray from the point crosses the chords of the outline; each arc whose segment holds the point turns that around.
     For both, a point on a chord lies infinitesimally above it.
