@@ -34,6 +34,9 @@ FEATURE_TURN = 6  # the sine by which the way turns at a vertex, to the left; `F
 FEATURE_COLUMNS = 7
 FREE_END = 2
 
+# outline_closed: 0 of an open chain, 1 of a closed one with its material inside, or
+HOLE = 2  # outside
+
 # outline_data columns
 OUTLINE_X = 0  # the centre of a circle around it [m]
 OUTLINE_Y = 1

@@ -40,8 +40,9 @@ ADVICE = {
     NO_PROGRESS: "No progress: a tenth of max_internal_steps has not covered a hundredth of the communication step, "
     "because something is very stiff or very fast. The time reached is good, and the next step goes on from there. "
     "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
-    NO_CHOICE: "No set of pushing contacts agrees with the motion; with friction, no finite forces may (Painleve's "
-    "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
+    NO_CHOICE: "No set of pushing contacts agrees with the motion: all modes of the contacts that touch were tried. "
+    "With friction, none has finite forces (Painleve's paradox). Give the mechanism tangential_shock=True, by which an "
+    "impact leads on; or less friction, or lengths or start positions that differ a little.",
     MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Give an OutlineContact more points; let "
     "less of them meet at one instant: change lengths or start positions a little.",
     PENETRATED: "Two bodies that may touch have gone into each other: a corner was grazed between two looks, an "

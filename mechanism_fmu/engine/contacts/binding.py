@@ -13,9 +13,8 @@ from ...tables.parts import Contacts, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..outlines.features import FAR
 from ..outlines.held import is_one_with
-from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
+from ..outlines.nearest import FREE, MEETS, OVERLAP, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
 OVERLAPS = 1e-9
@@ -131,23 +130,18 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
 def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
     """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
 
-    A disc of one that is inside the other counts, and none in an open chain, which has no inside; and elements that
-    cross each other.
+    Whatever is bound, held or known to be apart: an independent watch (`outlines.overlap`).
     """
     keep_apart()
     table = Contacts(block)
     found = codes.NONE
     least = -OVERLAPS
-    look_no_deeper(block, FAR)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
-            if table.apart[c] > 0.0 and not _is_bound(block, c):
-                continue
-            gap = nearest(block, at, c, EVERY)
+            gap = nearest(block, at, c, OVERLAP)
             if gap < least:
                 least = gap
                 found = c
-    look_no_deeper(block, 0.0)
     return found, -least
 
 

@@ -287,18 +287,6 @@ def measure(block: Array, at: Pose) -> None:
 
 
 @jit
-def forget_apart(block: Array, at: Pose) -> None:
-    """Of outlines that may have come near each other since they were measured, it is not known that they are apart."""
-    keep_small()
-    table = Contacts(block)
-    for g in range(table.mode.shape[0]):
-        if is_free(block, g) and can_happen(block, g):
-            near = table.apart[table.group[g]] < unseen(block, g) or indicator(block, at, g) <= 0.0
-            if near:
-                table.apart[table.group[g]] = 0.0
-
-
-@jit
 def due_below(block: Array, number: int) -> float:
     """Below which value an indicator is due: of forces, where they lack more than half of what they may."""
     keep_small()
