@@ -57,6 +57,8 @@ _COUNTERS = {
     "IMPLICIT_STEP": whole(0, 0, "may_be_implicit"),
     "FIRST_IMPACT": whole(0, -1, "buffer"),
     "FIRST_EVENT": whole(0, -1, "event_buffer"),
+    "UNDETERMINED": whole(0, 0, "rubs"),
+    "SEVERAL": whole(0, 0, "rubs"),
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
