@@ -22,6 +22,7 @@ from .features import (
     CORNERS_TOUCH,
     FAR,
     apart,
+    corners_face,
     disc_radius,
     faces_corner,
     first_in_row,
@@ -259,12 +260,15 @@ def _of_disc(
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
             distance -= CORNERS_TOUCH
-            if distance < -0.5 * CORNERS_TOUCH:
-                continue  # too near to say which way: a side of one touches the other
+            if not (distance > -0.5 * CORNERS_TOUCH and corners_face(block, disc, g, c, s, px, py)):
+                continue  # a side of one touches the other
         if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):
             continue
+        at_corner = sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py)
+        if at_corner and not faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx):
+            continue  # what it touches there is beside that, whichever rounding says is nearer
         if (
             mode < EVERY
             and not is_end
@@ -275,8 +279,6 @@ def _of_disc(
                 closest = g
             continue
         faces = True
-        if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
-            faces = faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx)
         if radius > 0.0:  # the place on the disc, seen from its body
             faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
             if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
