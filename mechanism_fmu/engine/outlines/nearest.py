@@ -36,7 +36,7 @@ from .features import (
     turning_of_copy,
     wrapped,
 )
-from .held import is_held, is_one_with
+from .held import FREE_PAIR, SAME_CORNERS, is_held, is_one_with
 
 # What a search counts (`mode`).
 #: As `NEXT`, without the places where an outline goes on smoothly: what it is that comes next.
@@ -208,9 +208,9 @@ def _of_discs(
             best = max(gap, TOUCHES_WITHIN)
             outlines.found[0] = codes.NONE
             outlines.found[1] = codes.NONE
-        if not smooth and found != codes.NONE and gap < best:
+        if not smooth and gap < best:
             best = gap
-            outlines.found[side] = f
+            outlines.found[side] = f if found != codes.NONE else codes.NONE
             outlines.found[1 - side] = found
             outlines.found[2] = copy
     return best
@@ -253,7 +253,7 @@ def _of_disc(
     sticks_out = features.kind[disc] == codes.VERTEX and is_corner(block, disc)
     front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
     gap, depth, least = FAR, 0.0, FAR
-    is_cut = False
+    is_cut, comes_apart = False, False
     for g in range(outlines.first[other], outlines.first[other] + outlines.count[other]):
         if features.kind[g] == codes.ARC and 0.0 > features.data[g, codes.FEATURE_RADIUS] >= -radius:
             continue  # it does not fit in
@@ -269,15 +269,14 @@ def _of_disc(
         at_corner = sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py)
         if at_corner and not faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx):
             continue  # what it touches there is beside that, whichever rounding says is nearer
-        if (
-            mode < EVERY
-            and not is_end
-            and is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, px, py)
-        ):
-            if abs(distance) < least:  # what is in front of it is not behind the next one
-                least = abs(distance)
-                closest = g
-            continue
+        if mode < EVERY and not is_end:
+            bound = is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, c, s, px, py)
+            if bound != FREE_PAIR:
+                if abs(distance) < least:  # what is in front of it is not behind the next one
+                    least = abs(distance)
+                    closest = g
+                comes_apart = comes_apart or bound == SAME_CORNERS
+                continue
         faces = True
         if radius > 0.0:  # the place on the disc, seen from its body
             faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
@@ -299,6 +298,8 @@ def _of_disc(
         if faces and mode < EVERY and distance < 0.0 and g != closest and not is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
+    if comes_apart and mode == NEXT and crossed == codes.NONE and gap > TOUCHES_WITHIN:
+        return codes.NONE, TOUCHES_WITHIN  # what slides along from there touches at two places
     if crossed == codes.NONE:
         return front, gap
     behind_another = crossed != closest and not is_cut
