@@ -134,7 +134,9 @@ def test_an_equal_box_slides_off_without_going_in(free: bool, friction: float, r
                 contacts = [OutlineContact("between", upper, GROUND, outline_i=outline, outline_j=fixed, **law)]
                 bodies, names = (upper,), ["upper"]
             mechanism = Mechanism(bodies, contacts=tuple(contacts), gravity=(0.0, -GRAVITY))
-            result = run(mechanism, names, 0.6, "energy.kinetic")
+            # what is elastic and rubs ends in bounces without number
+            until = 0.6 if restitution < 1.0 or friction == 0.0 else 0.05
+            result = run(mechanism, names, until, "energy.kinetic")
             boxes = [placed(result, name, square) for name in names]
             if not free:
                 boxes.append(Placed((np.array([complex(x, y + 0.1) for x, y in square]),), 0j, 1.0 + 0j))

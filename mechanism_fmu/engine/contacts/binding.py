@@ -14,7 +14,7 @@ from ...tolerances import TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.outline_row import place_feature, turning_of
-from ..outlines.features import AT_A_CORNER, FAR, faces_corner
+from ..outlines.features import AT_A_CORNER, FAR, beside, faces_corner, is_corner
 from ..outlines.held import is_one_with
 from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
 
@@ -160,9 +160,15 @@ def _is_past(
     bx, by, dx, dy = place_feature(block, at, j, outline, copy, segment)
     ax, ay, _, _ = place_feature(block, at, i, of_corner, copy_of_corner, corner)
     along = dx * (at.x[i] + ax - at.x[j] - bx) + dy * (at.y[i] + ay - at.y[j] - by)
+    way = -1
+    if abs(along) >= AT_A_CORNER:
+        along = Features(block).data[segment, codes.FEATURE_LENGTH] - along
+        way = 1
+    end = beside(block, outline, segment, way)
+    if abs(along) >= AT_A_CORNER or end == codes.NONE or not is_corner(block, end):
+        return False
     c, s = turning_of(block, at, i, of_corner, copy_of_corner)
-    away = min(abs(along), abs(Features(block).data[segment, codes.FEATURE_LENGTH] - along)) >= AT_A_CORNER
-    return not (away or faces_corner(block, corner, c * dy - s * dx, -c * dx - s * dy))
+    return not faces_corner(block, corner, c * dy - s * dx, -c * dx - s * dy)
 
 
 @jit

@@ -281,7 +281,10 @@ def corners_face(block: Array, corner: int, other: int, c: float, s: float, px: 
     keep_small()
     data = Features(block).data[other]
     dx, dy = px - data[codes.FEATURE_X], py - data[codes.FEATURE_Y]
-    return _is_beyond(block, other, dx, dy) and _is_beyond(block, corner, -c * dx - s * dy, s * dx - c * dy)
+    if not _is_beyond(block, other, dx, dy):
+        return False
+    # where a hollow arc begins smoothly, nothing is beside it
+    return not is_corner(block, corner) or _is_beyond(block, corner, -c * dx - s * dy, s * dx - c * dy)
 
 
 @jit

@@ -45,8 +45,8 @@ def is_held(
     Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
     place at most: where the one hands over to the other. Where an outline goes over into a hollow arc in which the
     other does not fit, there may be two. What comes off hands over no more: what follows there, where something is
-    round or around a corner, may be the next, if that is what is looked for. Two corners at one place touch once, as long as that
-    pair of features fits there.
+    round or around a corner, may be the next, if that is what is looked for. Two corners at one place touch once, as
+    long as that pair of features fits there.
     """
     keep_apart()
     table = Contacts(block)

@@ -268,7 +268,10 @@ def _of_disc(
             continue
         at_corner = sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py)
         if at_corner and not faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx):
-            continue  # what it touches there is beside that, whichever rounding says is nearer
+            if least > AT_A_CORNER:  # what it touches there is nearer, whatever rounding says
+                least = AT_A_CORNER
+                closest = g
+            continue
         if mode < EVERY and not is_end:
             bound = is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, c, s, px, py)
             if bound != FREE_PAIR:
