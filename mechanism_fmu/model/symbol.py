@@ -14,7 +14,6 @@ from .findings import Finding
 from .functions import Number, is_plain
 from .operators import Recorded
 
-
 #: Operations on plain numbers.
 APPLY: dict[str, Callable[..., float]] = {
     "add": operator.add,

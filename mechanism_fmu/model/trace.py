@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
@@ -101,7 +101,9 @@ def trace(model: Model) -> Trace:
         MechanismError: the model branches on a parameter, or an integer table or a table's shape depends on one.
     """
     recorder = Recorder()
-    values = SimpleNamespace(**{p.name: recorder.parameter(i, _limits(p), p.start) for i, p in enumerate(model.parameters)})
+    values = SimpleNamespace(
+        **{p.name: recorder.parameter(i, _limits(p), p.start) for i, p in enumerate(model.parameters)}
+    )
     plain = compile_mechanism(model.build(model.values()))
     try:
         mechanism = model.mechanism(values)

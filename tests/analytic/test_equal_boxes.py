@@ -98,7 +98,9 @@ def test_equal_blocks_settle_from_a_millimetre(count: int, friction: float) -> N
     assert first["floor_0.gap"] == pytest.approx(math.sqrt(2e-3 / GRAVITY), abs=1e-9)
 
 
-@pytest.mark.parametrize("count", [3, pytest.param(10, marks=pytest.mark.slow), pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "count", [3, pytest.param(10, marks=pytest.mark.slow), pytest.param(30, marks=pytest.mark.slow)]
+)
 def test_equal_blocks_fall_over_when_pushed(count: int) -> None:
     """A force that overturns what is above the floor, and does not let it slide."""
     # about the edge below: force times its height against weight times half a width

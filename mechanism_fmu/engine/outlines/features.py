@@ -294,10 +294,8 @@ def _is_beyond(block: Array, corner: int, dx: float, dy: float) -> bool:
     data = Features(block).data[corner]
     before = data[codes.FEATURE_DX] * dx + data[codes.FEATURE_DY] * dy
     behind = -(data[codes.FEATURE_LEAVES_X] * dx + data[codes.FEATURE_LEAVES_Y] * dy)
-    if data[codes.FEATURE_TURN] == codes.FREE_END:
-        is_beyond: bool = before + behind > BEYOND
-        return is_beyond
-    is_beyond = before > BEYOND and behind > BEYOND
+    least = before + behind if data[codes.FEATURE_TURN] == codes.FREE_END else min(before, behind)
+    is_beyond: bool = least > BEYOND
     return is_beyond
 
 

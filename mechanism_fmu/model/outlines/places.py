@@ -69,7 +69,9 @@ def _run_count(outline: Outline, is_alone: bool) -> int:
     """
     turns, elements = _turns(outline), outline.elements
     hollow = [element.bulge < 0 for element in (*elements, elements[0])]
-    ends = [turn < -_SMOOTH or before != behind for turn, (before, behind) in zip(turns, pairwise(hollow), strict=False)]
+    ends = [
+        turn < -_SMOOTH or before != behind for turn, (before, behind) in zip(turns, pairwise(hollow), strict=False)
+    ]
     first = 0
     if outline.closed:
         if not any(ends):

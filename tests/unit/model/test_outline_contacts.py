@@ -156,7 +156,12 @@ PLACES = {
     "a square in a notch": (SQUARE, NOTCH, None, 4),
     "a square under the two ends of a chain": (SQUARE, RING, None, 4),
     "a disc in a bore": (Outline.circle(0.1), Outline.circle(0.2, hole=True), None, 2),
-    "a square on four teeth": (SQUARE, Outline.chain([(0.1, 0.0), (0.05, 0.1), (0.0, 0.0)]), LinearCopies((0.1, 0.0)), 8),
+    "a square on four teeth": (
+        SQUARE,
+        Outline.chain([(0.1, 0.0), (0.05, 0.1), (0.0, 0.0)]),
+        LinearCopies((0.1, 0.0)),
+        8,
+    ),
     "a comb on a floor": (COMB, FLOOR, None, 6),
     "two combs": (COMB, COMB, None, 12),
 }
