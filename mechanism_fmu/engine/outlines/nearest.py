@@ -22,6 +22,7 @@ from .features import (
     CORNERS_TOUCH,
     FAR,
     apart,
+    corners_face,
     disc_radius,
     faces_corner,
     first_in_row,
@@ -35,7 +36,7 @@ from .features import (
     turning_of_copy,
     wrapped,
 )
-from .held import is_held, is_one_with
+from .held import FREE_PAIR, SAME_CORNERS, is_held, is_one_with
 from .overlap import shared_depth
 
 # What a search counts (`mode`).
@@ -210,9 +211,9 @@ def _of_discs(
             best = max(gap, TOUCHES_WITHIN)
             outlines.found[0] = codes.NONE
             outlines.found[1] = codes.NONE
-        if not smooth and found != codes.NONE and gap < best:
+        if not smooth and gap < best:
             best = gap
-            outlines.found[side] = f
+            outlines.found[side] = f if found != codes.NONE else codes.NONE
             outlines.found[1 - side] = found
             outlines.found[2] = copy
     return best
@@ -253,26 +254,34 @@ def _of_disc(
     sticks_out = features.kind[disc] == codes.VERTEX and is_corner(block, disc)
     front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
     gap, depth, least = FAR, 0.0, FAR
+    comes_apart = False
     for g in range(outlines.first[other], outlines.first[other] + outlines.count[other]):
         if features.kind[g] == codes.ARC and 0.0 > features.data[g, codes.FEATURE_RADIUS] >= -radius:
             continue  # it does not fit in
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
             distance -= CORNERS_TOUCH
-            if distance < -0.5 * CORNERS_TOUCH:
-                continue  # too near to say which way: a side of one touches the other
+            if not (distance > -0.5 * CORNERS_TOUCH and corners_face(block, disc, g, c, s, px, py)):
+                continue  # a side of one touches the other
         if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):
             continue
-        if not is_end and is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, px, py):
-            if abs(distance) < least:  # what is in front of it is not behind the next one
-                least = abs(distance)
+        at_corner = sticks_out and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py)
+        if at_corner and not faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx):
+            if least > AT_A_CORNER:  # what it touches there is nearer, whatever rounding says
+                least = AT_A_CORNER
                 closest = g
             continue
+        if not is_end:
+            bound = is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, c, s, px, py)
+            if bound != FREE_PAIR:
+                if abs(distance) < least:  # what is in front of it is not behind the next one
+                    least = abs(distance)
+                    closest = g
+                comes_apart = comes_apart or bound == SAME_CORNERS
+                continue
         faces = True
-        if sticks_out and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
-            faces = faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx)
         if radius > 0.0:  # the place on the disc, seen from its body
             faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
             if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
@@ -289,6 +298,8 @@ def _of_disc(
         if faces and distance < 0.0 and g != closest and not is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
+    if comes_apart and mode == NEXT and crossed == codes.NONE and gap > TOUCHES_WITHIN:
+        return codes.NONE, TOUCHES_WITHIN  # what slides along from there touches at two places
     if crossed == codes.NONE:
         return front, gap
     if crossed != closest and is_one_with(block, other, crossed, closest):

@@ -342,7 +342,8 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     if (outcome == STATUS_FORCE_PASSED_OVER)
         snprintf(text, size, " Force element '%s'.", model.elements[((const int64_t *)FIELD(x, stage_stiffest))[0]]);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
-        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)
+        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED ||
+        outcome == STATUS_FEW_POINTS)
         involved_contacts(x, text, size);
     if (outcome == STATUS_JAMMED || outcome == STATUS_NO_CHOICE) friction(x, text, size);
     return text;
