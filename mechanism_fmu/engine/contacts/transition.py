@@ -10,7 +10,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import rubs, slips, touches
+from ..constraints.friction_rows import rubs, slips, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
@@ -97,6 +97,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     stopped = codes.NONE
     if guard == codes.GUARD_STICK:
         stopped = subject
+    leaving = subject if guard == codes.GUARD_PUSH else codes.NONE
     impulse = 0.0
     hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
@@ -116,7 +117,7 @@ def transit(block: Array, guard: int, subject: int) -> int:
     if Sizes(block).thresholds > 0:
         decide_sides(block)
     if settled:
-        outcome = _settle(block, fired, stopped, only_choose, hits > 0, shocks)
+        outcome = _settle(block, fired, stopped, leaving, only_choose, hits > 0, shocks)
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
@@ -213,11 +214,12 @@ def switch_contacts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool, shocks: bool) -> int:
+def _settle(block: Array, fired: int, stopped: int, leaving: int, only_choose: bool, hit: bool, shocks: bool) -> int:
     """Choose, among the contacts that touch and rest, those that push, and how friction slips.
 
-    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has. An impact without approach
-    comes first where the motion `shocks`, because no finite forces agree with it any more.
+    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has, `leaving` the contact whose
+    force has. An impact without approach comes first where the motion `shocks`, because no finite forces agree with it
+    any more.
     """
     keep_small()
     table = Contacts(block)
@@ -253,6 +255,8 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     outcome = status.NO_CHOICE
     if not shocks:
         outcome = push_forces(block, at)
+    if outcome == status.OK and leaving != codes.NONE and table.mode[leaving] == codes.CLOSED:
+        outcome = _let_open(block, at, leaving)
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)
     if outcome == status.NO_CHOICE and shocks:
@@ -268,6 +272,34 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
         table.touching[c] = 1 - table.mode[c]
         if table.mode[c] == codes.OPEN and -TOUCHES_WITHIN < gap(block, at, c)[0] < -GAP_NOISE:
             table.touching[c] = codes.LEFT_INSIDE
+    return outcome
+
+
+@jit
+def _let_open(block: Array, at: Pose, leaving: int) -> int:
+    """Open a contact whose force has fallen through zero, and choose among the other candidates; return a status.
+
+    By the rounding of time and place, it may push again at the event itself. If it stayed closed, its force would fall
+    through zero at the same instant again, without end. It stays closed where something else has changed its mode.
+    """
+    keep_small()
+    problem = Strikes(block).problem
+    candidates = Strikes(block).candidates
+    rub = Rubs(block)
+    changed = has_changed(block)
+    for k in range(rub.slip.shape[0]):
+        changed = changed or (rub.stuck[k] == 1) != sticks(block, k)
+    if changed:
+        return status.OK
+    last = problem[COUNT] - 1
+    for k in range(last):
+        if candidates[k] == leaving:
+            candidates[k] = candidates[last]
+    candidates[last] = leaving
+    Contacts(block).mode[leaving] = codes.OPEN
+    problem[COUNT] = last
+    outcome = push_forces(block, at)
+    problem[COUNT] = last + 1
     return outcome
 
 

@@ -188,22 +188,28 @@ def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int,
     Raises:
         MechanismError: another degree, too few points, a place without a value, or knots that do not increase.
     """
-    if degree not in (3, 5):
-        raise MechanismError(f"A spline of degree {degree} is not made here; take 3 (C2) or 5 (C4).")
-    points = len(knots) - periodic
-    if len(values) != points:
-        raise MechanismError(f"A spline has {points} places for {len(values)} values; give as many of each.")
-    widths = np.diff(np.asarray(knots, dtype=float))
-    if points < 3 or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
-        where = ", ".join(f"{float(knot):g}" for knot in knots)
-        again = "; the last one is where it repeats itself" if periodic else ""
-        raise MechanismError(f"A spline needs at least 3 points at increasing places, but they are at {where}{again}.")
+    widths = spline_widths(knots, len(values), degree, periodic)
     coefficients = _coefficients(widths, degree, periodic)
     pieces = []
     for k, start in enumerate(knots[:-1]):
         terms = [_combine(row, values) for row in coefficients[k]]
         pieces.append(Piece(float(start), (Term(tuple(terms)),)))
     return tuple(pieces)
+
+
+def spline_widths(knots: Sequence[float], count: int, degree: int, periodic: bool) -> Matrix:
+    """Distances of the knots of a spline through `count` values, as of `spline_pieces`, which refuses the same."""
+    if degree not in (3, 5):
+        raise MechanismError(f"A spline of degree {degree} is not made here; take 3 (C2) or 5 (C4).")
+    points = len(knots) - periodic
+    if count != points:
+        raise MechanismError(f"A spline has {points} places for {count} values; give as many of each.")
+    widths = np.diff(np.asarray(knots, dtype=float))
+    if points < 3 or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
+        where = ", ".join(f"{float(knot):g}" for knot in knots)
+        again = "; the last one is where it repeats itself" if periodic else ""
+        raise MechanismError(f"A spline needs at least 3 points at increasing places, but they are at {where}{again}.")
+    return widths
 
 
 def plain_places(places: Sequence[Number], what: str) -> list[float]:
