@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..errors import MechanismError
 from ..functions import Number, is_plain
-from .pieces import Curve, Piece, Term, spline_widths
+from .pieces import Curve, Piece, Smoothing, Term, spline_widths
 
 _Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -33,52 +32,7 @@ _MEDIAN = 0.6745
 _MISJUDGED = 2.0
 
 
-@dataclass(frozen=True)
-class Smoothing:
-    """Assumptions and results of a smoothing spline.
-
-    Attributes:
-        noise: standard deviation of the points about the true curve, as given [unit of the curve].
-        scatter: the same, estimated from the points alone [unit of the curve].
-        points: how many there are.
-        pieces: of the spline.
-        degree: of its pieces.
-        rms: root mean square of the residuals, points minus spline [unit of the curve].
-        largest: largest residual [unit of the curve].
-        second_derivative_change: largest difference of the second derivative, at a point, from that of the spline
-            through all points [unit of the curve / unit of its variable^2].
-    """
-
-    noise: float
-    scatter: float
-    points: int
-    pieces: int
-    degree: int
-    rms: float
-    largest: float
-    second_derivative_change: float
-
-    def __str__(self) -> str:
-        return (
-            f"{self.points} points with noise of {self.noise:.3g} (they scatter by about {self.scatter:.2g}): "
-            f"{self.pieces} pieces of degree {self.degree}; residuals {self.rms:.3g} (rms), {self.largest:.3g} "
-            "(largest); the second derivative changes by up to "
-            f"{self.second_derivative_change:.3g} from that of the spline through the points."
-        )
-
-
-@dataclass(frozen=True)
-class SmoothedCurve(Curve):
-    """A curve beside measured points, within their noise.
-
-    Attributes:
-        smoothing: what it assumes, and how far it is from the points.
-    """
-
-    smoothing: Smoothing | None = None
-
-
-def smooth_periodic(knots: Sequence[float], values: Sequence[Number], degree: int, noise: float) -> SmoothedCurve:
+def smooth_periodic(knots: Sequence[float], values: Sequence[Number], degree: int, noise: float) -> Curve:
     """The periodic smoothing spline with the fewest knots whose residuals have the standard deviation `noise`.
 
     Args:
@@ -148,12 +102,12 @@ def smooth_periodic(knots: Sequence[float], values: Sequence[Number], degree: in
         largest=float(np.abs(off).max()),
         second_derivative_change=float(np.abs(change).max()),
     )
-    return SmoothedCurve(pieces, float(places[0]), float(places[-1] - places[0]), periodic=True, smoothing=smoothing)
+    return Curve(pieces, float(places[0]), float(places[-1] - places[0]), periodic=True, smoothing=smoothing)
 
 
 def remark_on(curve: Curve) -> str | None:
     """A remark on a curve whose second derivative is noise, or that is smoothed with another noise than there is."""
-    if isinstance(curve, SmoothedCurve) and curve.smoothing is not None:
+    if curve.smoothing is not None:
         noise, scatter = curve.smoothing.noise, curve.smoothing.scatter
         if scatter > 0.0 and max(noise / scatter, scatter / noise) > _MISJUDGED:
             return (

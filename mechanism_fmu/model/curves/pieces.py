@@ -85,6 +85,40 @@ class Piece:
 
 
 @dataclass(frozen=True)
+class Smoothing:
+    """Assumptions and results of a smoothing spline.
+
+    Attributes:
+        noise: standard deviation of the points about the true curve, as given [unit of the curve].
+        scatter: the same, estimated from the points alone [unit of the curve].
+        points: how many there are.
+        pieces: of the spline.
+        degree: of its pieces.
+        rms: root mean square of the residuals, points minus spline [unit of the curve].
+        largest: largest residual [unit of the curve].
+        second_derivative_change: largest difference of the second derivative, at a point, from that of the spline
+            through all points [unit of the curve / unit of its variable^2].
+    """
+
+    noise: float
+    scatter: float
+    points: int
+    pieces: int
+    degree: int
+    rms: float
+    largest: float
+    second_derivative_change: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.points} points with noise of {self.noise:.3g} (they scatter by about {self.scatter:.2g}): "
+            f"{self.pieces} pieces of degree {self.degree}; residuals {self.rms:.3g} (rms), {self.largest:.3g} "
+            "(largest); the second derivative changes by up to "
+            f"{self.second_derivative_change:.3g} from that of the spline through the points."
+        )
+
+
+@dataclass(frozen=True)
 class Curve:
     """A function of one variable.
 
@@ -94,6 +128,7 @@ class Curve:
         start: where the range of a profile begins, in the unit of its variable; of a periodic curve, of the period.
         span: the length of that range, in the same unit.
         periodic: whether it repeats itself.
+        smoothing: of measured points, what it assumes of their noise; None where it goes through its points.
 
     Raises:
         MechanismError: `pieces` is no tuple of `Piece`s, or start or span is no number.
@@ -103,6 +138,7 @@ class Curve:
     start: Number = 0.0
     span: Number = 0.0
     periodic: bool = False
+    smoothing: Smoothing | None = None
 
     def __post_init__(self) -> None:
         """Refuse arguments of the wrong kind, as `Term` does."""

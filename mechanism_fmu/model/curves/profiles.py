@@ -68,8 +68,8 @@ def spline_profile(
         angles: increasing, within one turn [rad]; equidistant from 0 on when left out.
         degree: 3 or 5; when left out 3, and 5 with noise.
         noise: standard deviation of measured radii about the true profile [m], or with its unit, e.g. "1 um"; the
-            spline is then a smoothing one, a `SmoothedCurve` whose `smoothing` says what it assumes. Radii must be
-            plain numbers, and scipy be installed.
+            spline is then a smoothing one, and its `smoothing` says what it assumes. Radii must be plain numbers, and
+            scipy be installed.
 
     Raises:
         MechanismError: fewer than 3 points, another count of angles or degree, or angles that do not increase or that
