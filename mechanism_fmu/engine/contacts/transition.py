@@ -10,7 +10,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import rubs, slips, touches
+from ..constraints.friction_rows import rubs, slips, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
@@ -275,6 +275,8 @@ def _settle(block: Array, guard: int, subject: int) -> int:
     outcome = status.NO_CHOICE
     if not shocks:
         outcome = push_forces(block, at)
+    if outcome == status.OK and guard == codes.GUARD_PUSH and table.mode[subject] == codes.CLOSED:
+        outcome = _let_open(block, at, subject)
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)
     if outcome == status.NO_CHOICE and shocks:
@@ -290,6 +292,34 @@ def _settle(block: Array, guard: int, subject: int) -> int:
         table.touching[c] = 1 - table.mode[c]
         if table.mode[c] == codes.OPEN and -TOUCHES_WITHIN < gap(block, at, c)[0] < -GAP_NOISE:
             table.touching[c] = codes.LEFT_INSIDE
+    return outcome
+
+
+@jit
+def _let_open(block: Array, at: Pose, leaving: int) -> int:
+    """Open a contact whose force has fallen through zero, and choose among the other candidates; return a status.
+
+    By the rounding of time and place, it may push again at the event itself. If it stayed closed, its force would fall
+    through zero at the same instant again, without end. It stays closed where something else has changed its mode.
+    """
+    keep_small()
+    problem = Strikes(block).problem
+    candidates = Strikes(block).candidates
+    rub = Rubs(block)
+    changed = has_changed(block)
+    for k in range(rub.slip.shape[0]):
+        changed = changed or (rub.stuck[k] == 1) != sticks(block, k)
+    if changed:
+        return status.OK
+    last = problem[COUNT] - 1
+    for k in range(last):
+        if candidates[k] == leaving:
+            candidates[k] = candidates[last]
+    candidates[last] = leaving
+    Contacts(block).mode[leaving] = codes.OPEN
+    problem[COUNT] = last
+    outcome = push_forces(block, at)
+    problem[COUNT] = last + 1
     return outcome
 
 

@@ -323,6 +323,7 @@ def _prepare_looks(block: Array, end: float) -> None:
     keep_small()
     s = Stages(block)
     clear(Contacts(block).least_push)
+    clear(Contacts(block).most_push)
     if rubs(block):
         clear(Rubs(block).least_hold)
     set_time(block, end)
