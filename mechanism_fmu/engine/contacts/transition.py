@@ -355,7 +355,6 @@ def _shock(block: Array, count: int) -> int:
 
 
 @jit
-@jit
 def _note_accumulation(block: Array) -> None:
     """Write to PILE how many events without progress in time have concerned what takes part in the present one."""
     keep_small()
