@@ -145,7 +145,7 @@ def problem_at(simulation: Simulation, mechanism: Mechanism) -> ContactProblem:
         turn, spin = np.eye(2), 0.0
         for sign, body, feature in ((1.0, corner_body, corner), (-1.0, side_body, side)):
             place = data[feature, :2]
-            if body != codes.GROUND:
+            if body * 3 < size:
                 x, y, angle = state[3 * body : 3 * body + 3]
                 u, v, w = state[size + 3 * body : size + 3 * body + 3]
                 turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
@@ -163,7 +163,7 @@ def problem_at(simulation: Simulation, mechanism: Mechanism) -> ContactProblem:
             value = direction @ d_acceleration + 2.0 * turning @ d_rate - spin * spin * direction @ d
             (gap, slip)[axis].append(value)
             for sign, body, feature in ((1.0, corner_body, corner), (-1.0, side_body, side)):
-                if body != codes.GROUND:
+                if body * 3 < size:
                     angle = state[3 * body + 2]
                     own = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
                     rows[axis, 3 * body : 3 * body + 2] = sign * direction
