@@ -10,7 +10,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
 from ...tables.motion import Rows, Rubs, Stages
-from ...tables.parts import Contacts
+from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from ...tolerances import ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_small
@@ -239,9 +239,16 @@ def refine_hold(block: Array, rub: int, step_size: float) -> float:
 
 @jit
 def _hold_behind(block: Array, rub: int) -> float:
-    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried."""
+    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried.
+
+    Without Baumgarte's gains: drift there, which is projected behind the step, would count as a force.
+    """
     keep_small()
     s = Stages(block)
+    settings = Options(block).settings
+    alpha, beta = settings[codes.BAUMGARTE_ALPHA], settings[codes.BAUMGARTE_BETA]
+    settings[codes.BAUMGARTE_ALPHA] = settings[codes.BAUMGARTE_BETA] = 0.0
     set_time(block, s.tried[0] + s.tried[1])
     derivative(block, s.y_new, s.dy_at)
+    settings[codes.BAUMGARTE_ALPHA], settings[codes.BAUMGARTE_BETA] = alpha, beta
     return hold_ratio(block, rub, push_tolerance(block, row_count(block)))
