@@ -16,8 +16,9 @@ from ..compiler.subset import jit, keep_apart, keep_small
 from ..outlines.features import FAR
 from ..outlines.held import is_one_with
 from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
+from ..scales import length_scale
 
-#: Outlines that reach farther into each other than this do not touch, but overlap [m].
+#: Outlines that reach farther into each other than this do not touch, but overlap, in the scale of lengths.
 OVERLAPS = 1e-9
 
 
@@ -95,6 +96,7 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
     """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status."""
     keep_apart()
     table = Contacts(block)
+    near = TOUCHES_WITHIN * length_scale(block)
     look_no_deeper(block, 0.0)
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c):
@@ -107,10 +109,10 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c) or table.group[c] != c or table.value[c, codes.ENABLED] < 0.5:
             continue
-        if table.apart[c] > TOUCHES_WITHIN and not _is_bound(block, c):
+        if table.apart[c] > near and not _is_bound(block, c):
             continue  # as far as its outlines are apart, nothing that has happened concerns it
         table.apart[c] = 0.0
-        while nearest(block, at, c, FREE) <= TOUCHES_WITHIN:
+        while nearest(block, at, c, FREE) <= near:
             place = free_place(block, c)
             if place == codes.NONE:
                 return status.MANY_TOUCH
@@ -131,7 +133,7 @@ def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
     keep_apart()
     table = Contacts(block)
     found = codes.NONE
-    least = -OVERLAPS
+    least = -OVERLAPS * length_scale(block)
     look_no_deeper(block, FAR)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:

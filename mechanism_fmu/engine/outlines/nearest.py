@@ -16,6 +16,7 @@ from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import GAP_NOISE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2
+from ..scales import length_scale
 from .crossing import crossing
 from .features import (
     AT_A_CORNER,
@@ -203,8 +204,8 @@ def _of_discs(
             continue
         found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius, best)
         # where two arcs and the side between them lie flat, all are as near but for rounding: what can touch counts
-        if smooth and found != codes.NONE and gap < best - GAP_NOISE:
-            best = max(gap, TOUCHES_WITHIN)
+        if smooth and found != codes.NONE and gap < best - GAP_NOISE * length_scale(block):
+            best = max(gap, TOUCHES_WITHIN * length_scale(block))
             outlines.found[0] = codes.NONE
             outlines.found[1] = codes.NONE
         if not smooth and found != codes.NONE and gap < best:
@@ -242,9 +243,10 @@ def _of_disc(
     keep_apart()
     outlines = Outlines(block)
     features = Features(block)
+    length = length_scale(block)
     deepest = outlines.depth[0]
     if outlines.closed[other] == 0 and deepest == FAR:
-        deepest = TOUCHES_WITHIN  # an open chain has no inside
+        deepest = TOUCHES_WITHIN * length  # an open chain has no inside
     # a hollow corner is where the element behind it begins, which is not what the one before touches
     is_end = features.kind[disc] == codes.VERTEX and is_hollow_corner(block, disc)
     # what is farther away cannot be what is found, nor nearer than what is crossed
@@ -258,8 +260,8 @@ def _of_disc(
             continue  # it does not fit in
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
-            distance -= CORNERS_TOUCH
-            if distance < -0.5 * CORNERS_TOUCH:
+            distance -= CORNERS_TOUCH * length
+            if distance < -0.5 * CORNERS_TOUCH * length:
                 continue  # too near to say which way: a side of one touches the other
         if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
@@ -275,11 +277,11 @@ def _of_disc(
                 closest = g
             continue
         faces = True
-        if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
+        if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER * length and is_at_end(block, g, px, py):
             faces = faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx)
         if radius > 0.0:  # the place on the disc, seen from its body
             faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
-            if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
+            if faces and distance < -TOUCHES_WITHIN * length:  # where it touches, rounding would say
                 faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
         if mode >= EVERY and faces and -radius < distance < depth:  # its centre is in front, and too near
             crossed = g
@@ -327,7 +329,7 @@ def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
 @jit
 def look_no_deeper(block: Array, depth: float) -> None:
     """From here on, features behind which a disc is deeper than this do not count [m]; at least what touches does."""
-    Outlines(block).depth[0] = max(depth, TOUCHES_WITHIN)
+    Outlines(block).depth[0] = max(depth, TOUCHES_WITHIN * length_scale(block))
 
 
 @jit

@@ -26,7 +26,8 @@ from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
-from ..vectors import clear, copy, largest
+from ..scales import largest_off, unknown_scale
+from ..vectors import clear, copy
 from .events import first_event
 from .runge_kutta import ABSOLUTE_FRACTION, try_step
 from .singular import SINGULAR_BELOW, independence, least_independence
@@ -110,7 +111,7 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     """
     keep_small()
     sine = math.sqrt(Course(block).independence_end[0])
-    if not (sine > _LEAST_SINE and apart > smallest_step(start)):
+    if not (sine > _LEAST_SINE and apart > smallest_step(block, start)):
         return REFUSED, 0.0
     beyond = apart * max(1.0, _SPACED_BY / sine)
     spacing = _SPACING * beyond
@@ -244,7 +245,7 @@ def _distance(block: Array, y: Array, other: Array) -> float:
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
     most: float = max(_by_mass(block, y[:n], other[:n]), _by_mass(block, y[n:], other[n:])) / relative
     for i in range(2 * n, Sizes(block).y_wear):
-        most = max(most, abs(y[i] - other[i]) / (relative * (ABSOLUTE_FRACTION + abs(y[i]))))
+        most = max(most, abs(y[i] - other[i]) / (relative * (ABSOLUTE_FRACTION * unknown_scale(block, i) + abs(y[i]))))
     return most
 
 
@@ -272,8 +273,8 @@ def _put_right(block: Array, start: float, size: float) -> float:
     close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
     derivative(block, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
-    s.drift[0] = largest(Rows(block).residual, count)
-    s.drift[1] = largest(Rows(block).residual_rate, count)
+    s.drift[0] = largest_off(block, Rows(block).residual, count)
+    s.drift[1] = largest_off(block, Rows(block).residual_rate, count)
     return _distance(block, s.y_new, s.y_at)
 
 
