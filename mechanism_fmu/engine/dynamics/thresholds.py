@@ -26,8 +26,8 @@ _ADD = OPERATIONS.number("add")
 _SUBTRACT = OPERATIONS.number("subtract")
 #: A sum is zero within this part of its terms: each of them carries a rounding, and so does the sum (4 half ulps).
 _ROUNDING = 4.0 * 2.0**-53
-#: Crossings of one threshold within this part of the mechanism's time are without progress: `PILED` of them, as by a law
-#: that jumps back at its own condition, and each evaluation decides for itself.
+#: Crossings of one threshold within this part of the mechanism's time are without progress: `PILED` of them, as by a
+#: law that jumps back at its own condition, and each evaluation decides for itself.
 NO_PROGRESS = 1e-9
 
 
