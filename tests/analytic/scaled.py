@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from mechanism_fmu.engine.outlines.features import FAR
 from mechanism_fmu.model import Body, Mechanism, Member
 from mechanism_fmu.model.curves import Curve
 from mechanism_fmu.model.outlines import Outline
 from mechanism_fmu.units import FMI
 
+#: Gaps of the second and further places where two outlines can touch.
+_OF_A_PLACE = re.compile(r"_\d+_gap$")
 #: Units of numbers that parts declare none of, by the name of the field; of several, where a field has several.
 _FIELDS = {
     **dict.fromkeys(("point", "point_i", "point_j", "reaction_point", "line_point", "boundary_point"), "m"),
@@ -167,7 +171,10 @@ def compare(given: Mechanism, scales: Scales, until: float, step: float, simulat
         worst, where = float(np.abs(times).max() / (until * scales.time)), "time of an event"
     for name in one.names[1:]:
         a, b = one[name] * scales.factor(one.units[name]), other[name]
-        a = np.where(one[name] == -1.0, b, a)  # no impact yet
+        if _OF_A_PLACE.search(name):
+            continue  # where several places of outlines are free, the last digit decides which stands for what is next
+        none = (one[name] == -1.0) | (other[name] == -1.0) | (one[name] == FAR)  # no impact yet, nothing to touch
+        a = np.where(none, b, a)
         off = float(np.abs(a - b).max() / max(np.abs(a).max(), np.finfo(float).tiny))
         if off > worst:
             worst, where = off, name
