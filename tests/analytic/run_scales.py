@@ -1,7 +1,7 @@
 """Mechanisms in other scales, over the full range: python -m tests.analytic.run_scales [draws] [first].
 
 The 16 models and random mechanisms, with masses 4^k times larger, and with lengths 4^k and times 2^k times larger, k
-from -10 to 10: the same bits. By other factors, masses 1e-12 to 1e12, lengths 1e-6 to 1e4: 1e-8 times the amplification,
+from -10 to 10: the same bits. By other factors, masses 1e-12 to 1e12, lengths 1e-6 to 1e4: 1e-8 times an amplification,
 which is measured by lengths that are 1e-9 larger than times and masses say.
 """
 
