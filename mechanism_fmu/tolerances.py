@@ -33,8 +33,9 @@ MARGIN = 1e-10
 #: The instant of an event is found when one more Newton step would move it by less than this.
 ROOT_TOLERANCE = 1e-13
 #: A force that lacks less than these shares still pushes; it opens at twice that (`engine.dynamics.rounding`): of what
-#: acts in its row, which mending of drift disturbs by so much, and of the largest force along any row, by the masses.
-PUSHES_WITHIN = 1e-10
+#: acts since the last event, which mending of drift disturbs by so much, and of the largest force along any row, by the
+#: masses.
+PUSHES_WITHIN = 3e-11
 PUSHES_SHARE = 1e-11
 #: Behind an impact, a rate may miss this share of the rates in its row: 10,000 times the rounding of one of them.
 SPEEDS_SHARE = 2e-12

@@ -82,6 +82,7 @@ class OneByOne:
         for k in range(int(job.impact_count[design]), min(count, job.impacts.shape[1])):
             place = held - (count - k)
             if place >= 0:
+                place = (counters.item(codes.FIRST_IMPACT) + place) % len(self._records)  # the buffer goes round
                 job.impacts[design, k] = self._records[place, job.impact_field]
         job.impact_count[design] = count
 

@@ -12,6 +12,7 @@ from ..constraints.friction_rows import coefficient, friction_row, sticks, touch
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..scales import friction_unit, present_rate
+from .participation import island_of
 
 
 @jit
@@ -31,8 +32,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
 
     At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
     whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
-    has just let go; where it has not stuck before, it does so here. All that has friction is looked at where not
-    `only_touching`.
+    has just let go: then its row may have drifted, too, and the sign of that speed says nothing of where it will slip.
+    Where it has not stuck before, it does so here. What takes no part in the event stays as it is. All that has
+    friction is looked at where not `only_touching`.
     """
     keep_small()
     table = Rubs(block)
@@ -43,7 +45,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
-        if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
+        if island_of(block, k) == codes.NONE:
+            continue
+        if not (touches(block, k) or (coefficient(block, k) > 0.0 and not only_touching)):
             continue
         begins = table.slip[k] != codes.STICKS
         if begins:
@@ -52,7 +56,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if begins:  # also where it slips: an impact may end that
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        rests_below = SLIPS_ABOVE * scale if begins else max(SLIPS_ABOVE * scale, STUCK_BELOW * present_rate(block))
+        drifts = not begins or let_go
+        rests_below = max(SLIPS_ABOVE * scale, STUCK_BELOW * present_rate(block)) if drifts else SLIPS_ABOVE * scale
         if abs(speed) > rests_below * friction_unit(block, k) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
@@ -72,6 +77,8 @@ def free_all(block: Array) -> None:
     at = place_bodies(block, Course(block).y_end)
     look_at_slip(block, at, False, codes.NONE)
     for k in range(table.slip.shape[0]):
+        if island_of(block, k) == codes.NONE:
+            continue
         if k >= Sizes(block).contacts + Sizes(block).joints:
             table.free[k] = codes.BOUND
             table.slip[k] = codes.APART

@@ -18,11 +18,12 @@ from ..dynamics.rounding import acceleration_rounding, speed_rounding
 from ..dynamics.sliding import slide
 from ..vectors import clear
 
-# strikes.problem: how many candidates there are, what is decided, and whether without approach. (Not arguments: each
-# literal is compiled anew.)
+# strikes.problem: how many candidates there are, what is decided, whether without approach, and for which island alone
+# (`codes.NONE`: for all). (Not arguments: each literal is compiled anew.)
 COUNT = 0
 KIND = 1
 SHOCK = 2
+ISLAND = 3
 FORCES = 0
 IMPULSES = 1
 

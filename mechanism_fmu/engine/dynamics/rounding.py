@@ -1,8 +1,10 @@
 """Rounding of forces and impulses along rows, by what acts there: the same for a grain and for a crane.
 
 The least z of D z = b is rounded in the metric of the masses: by a share of the largest multiplier times the length of
-its row of D = Phi_q M^-1/2. What is summed up in a row before that, forces applied and gamma, or rates, is rounded by a
-share of its terms.
+its row of D = Phi_q M^-1/2. What is summed up in a row before that is rounded by a share of its terms: of the rates
+before an impact, and of forces and gamma by a share of the acceleration that the present rate stands for, to which each
+force has contributed its magnitude (`scaling.note_rate`). That is a constant between events: forces fall through zero
+as they are.
 """
 
 from __future__ import annotations
@@ -10,25 +12,12 @@ from __future__ import annotations
 import math
 
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Loads, Rows
-from ...tables.parts import Bodies
+from ...tables.motion import Course, LinearSystem, Rows
 from ...tables.sizes import Sizes
 from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN, SPEEDS_SHARE
 from ..compiler.subset import jit, keep_small
+from ..constraints.rows import row_response
 from ..scales import present_rate, row_unit
-
-
-@jit
-def row_response(block: Array, row: int) -> float:
-    """Acceleration along a row by a unit force along it, by the masses of its two bodies: J M^-1 J^T."""
-    entry = Rows(block).jacobian[row]
-    inverse = Bodies(block).inverse_mass
-    total = 0.0
-    for end in range(2):
-        first = 3 * Rows(block).body[row, end]
-        for k in range(first, first + 3):  # the ground has none
-            total += entry[k] * entry[k] * inverse[k]
-    return total
 
 
 @jit
@@ -46,18 +35,9 @@ def note_level(block: Array, count: int) -> None:
 @jit
 def acceleration_rounding(block: Array, row: int) -> float:
     """Rounding of the acceleration along a row, behind `note_level`."""
-    keep_small()
-    entry = Rows(block).jacobian[row]
-    mass = Bodies(block)
-    load = Loads(block)
     rate = present_rate(block)
-    acts = abs(Rows(block).gamma[row]) + row_unit(block, row) * rate * rate
-    for end in range(2):
-        first = 3 * Rows(block).body[row, end]
-        for k in range(first, min(first + 3, Sizes(block).coordinates)):
-            correction = mass.inverse_root_mass[k] * LinearSystem(block).solution[k]
-            acts += abs(entry[k]) * (mass.inverse_mass[k] * load.size[k] + abs(correction))
-    return PUSHES_WITHIN * acts + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
+    own = row_unit(block, row) * rate * rate
+    return PUSHES_WITHIN * own + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
 
 
 @jit

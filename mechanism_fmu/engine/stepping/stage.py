@@ -39,7 +39,7 @@ def evaluate_stage(block: Array, time: float, y: Array, dy: Array) -> None:
 
 @jit
 def note_pushes(block: Array) -> None:
-    """After an acceleration: keep the least force of every closed contact that can open."""
+    """After an acceleration: keep the least and the largest force of every closed contact that can open."""
     table = Contacts(block)
     is_noted = False
     for c in range(table.mode.shape[0]):
@@ -47,7 +47,9 @@ def note_pushes(block: Array) -> None:
             if not is_noted:
                 note_level(block, row_count(block))
                 is_noted = True
-            table.least_push[c] = min(table.least_push[c], push_ratio(block, c))
+            push = push_ratio(block, c)
+            table.least_push[c] = min(table.least_push[c], push)
+            table.most_push[c] = max(table.most_push[c], push)
     if not rubs(block):
         return
     if not is_noted:

@@ -44,6 +44,7 @@ static int64_t keep_impacts(const Job *job, const double *block, int64_t design,
     for (int64_t k = seen; k < count && k < job->kept; k++) {
         int64_t place = held - (count - k);
         if (place < 0) continue; /* more at once than the buffer holds */
+        place = (place + counters[CODE_FIRST_IMPACT]) % SIZE(block, buffer); /* the buffer goes round */
         const double *record = FIELD(block, impacts) + place * SIZE(block, record);
         for (int64_t f = 0; f < job->fields; f++)
             job->impacts[(design * job->kept + k) * job->fields + f] = record[job->impact_field[f]];
