@@ -148,7 +148,7 @@ class Scales:
 
 
 def compare(given: Mechanism, scales: Scales, until: float, step: float, simulate: Any) -> tuple[float, str]:
-    """How far a mechanism moves otherwise in other scales, as a share of the largest of each column; and where.
+    """How far a mechanism moves otherwise in other scales, as a share of the largest of each unit; and where.
 
     Events count too: their number, guards and order must agree, else the answer is infinite.
 
@@ -169,13 +169,18 @@ def compare(given: Mechanism, scales: Scales, until: float, step: float, simulat
     times = np.array([e.time for e in one.events]) * scales.time - np.array([e.time for e in other.events])
     if len(times) and np.abs(times).max() > 0:
         worst, where = float(np.abs(times).max() / (until * scales.time)), "time of an event"
+    largest: dict[str, float] = {}
+    for name in one.names[1:]:
+        size = np.abs(np.where(one[name] == FAR, 0.0, one[name])).max(initial=0.0)
+        largest[one.units[name]] = max(largest.get(one.units[name], 0.0), float(size))
     for name in one.names[1:]:
         a, b = one[name] * scales.factor(one.units[name]), other[name]
         if _OF_A_PLACE.search(name):
             continue  # where several places of outlines are free, the last digit decides which stands for what is next
         none = (one[name] == -1.0) | (other[name] == -1.0) | (one[name] == FAR)  # no impact yet, nothing to touch
         a = np.where(none, b, a)
-        off = float(np.abs(a - b).max() / max(np.abs(a).max(), np.finfo(float).tiny))
+        most = largest[one.units[name]] * scales.factor(one.units[name])
+        off = float(np.abs(a - b).max() / max(most, np.finfo(float).tiny))
         if off > worst:
             worst, where = off, name
     return worst, where

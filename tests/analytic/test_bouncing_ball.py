@@ -11,8 +11,8 @@ from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import STICK_SPEED
 
 GRAVITY = 9.81
-#: The ball's radius of gyration, 1 m, is a length of scale 4, and falls at a rate of scale 4 (`engine.scales`).
-SPEED_SCALE = 16.0
+#: Of a ball with a radius of gyration of 1 m that falls, over what has scale 1 (`dynamics.scaling`).
+SPEED_SCALE = math.sqrt(GRAVITY) / (0.07634615877076063 * 1.2190829483452197)
 
 
 def ball(restitution, *, height=1.0, mass=1.0, tolerance=1e-12, contacts=1):

@@ -21,8 +21,8 @@ from ..case import Case, Known, Origin, Run, impacts_until, steps_of
 
 GRAVITY, HEIGHT, RESTITUTION = 9.81, 1.0, 0.7
 _COUNTED = (1, 2, 5, 10, 15)
-#: The ball's radius of gyration, 1 m, is a length of scale 4, and falls at a rate of scale 4.
-_SPEED_SCALE = 16.0
+#: Of a ball with a radius of gyration of 1 m that falls, over what has scale 1 (`engine.dynamics.scaling`).
+_SPEED_SCALE = math.sqrt(GRAVITY) / (0.07634615877076063 * 1.2190829483452197)
 
 
 def ball(tolerance: float) -> Mechanism:

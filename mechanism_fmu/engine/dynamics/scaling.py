@@ -1,7 +1,7 @@
 """How large a mechanism is, and how fast: the scales are written when the motion begins, the present rate at events.
 
-They are rounded down to powers of 4, rates to powers of 2. So a mechanism whose masses are 4^k times those of another,
-or whose lengths are 4^k and whose times 2^k times, moves as the other one does, to the last digit.
+A mechanism whose masses are 4^k times those of another, or whose lengths are 4^k and whose times 2^k times, moves as the
+other one does, to the last digit: nothing here rounds powers of two.
 """
 
 from __future__ import annotations
@@ -19,28 +19,15 @@ from ..constraints.rows import active_rows
 from .forces import apply_forces
 from .own_states import winding_rate
 
-#: What has scale 1 at least [m, 1/s, kg]: the ratchet of the paper, for whose size the numbers of `tolerances` are.
-_LENGTH, _RATE, _MASS = 0.07, 1.0, 4.0
+#: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the paper's
+#: model; the numbers of `tolerances` are for its size.
+_LENGTH, _RATE, _MASS = 0.07634615877076063, 1.2190829483452197, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
 #: A radius of gyration counts up to so many times all other lengths: the inertia of what shall not turn is no size.
 _GYRATION = 64.0
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
-#: No scale is larger, of what is infinite either.
-_LARGEST = 1e300
-
-
-@jit
-def _power_below(value: float, base: float) -> float:
-    """Largest power of `base` that does not exceed a positive value."""
-    keep_small()
-    power = 1.0
-    while power > value:
-        power /= base
-    while power * base <= min(value, _LARGEST):
-        power *= base
-    return power
 
 
 @jit
@@ -67,8 +54,8 @@ def note_sizes(block: Array) -> None:
         reach = max(reach, Outlines(block).data[k, codes.OUTLINE_RADIUS])
     if reach > 0.0:
         gyration = min(gyration, _GYRATION * max(reach, far))
-    scales[codes.SCALE_LENGTH] = _power_below(max(gyration, reach, _FAR * far) / _LENGTH, 4.0)
-    scales[codes.SCALE_MASS] = _power_below(mass / _MASS, 4.0)
+    scales[codes.SCALE_LENGTH] = max(gyration, reach, _FAR * far) / _LENGTH
+    scales[codes.SCALE_MASS] = mass / _MASS
     scales[codes.SCALE_RATE] = 0.0
     scales[codes.SCALE_PRESENT] = 0.0
 
@@ -97,8 +84,6 @@ def note_rate(block: Array, least: float) -> None:
     if rate == 0.0:
         rate = winding_rate(block) / _RATE
     known = scales[codes.SCALE_PRESENT]
-    if rate > 0.0:
-        rate = _power_below(rate, 2.0)
-        if scales[codes.SCALE_RATE] == 0.0:
-            scales[codes.SCALE_RATE] = rate
+    if scales[codes.SCALE_RATE] == 0.0:
+        scales[codes.SCALE_RATE] = rate
     scales[codes.SCALE_PRESENT] = max(rate, _FALLS * known)

@@ -20,8 +20,10 @@ from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 
 MASS = 0.7
-#: The ball's radius of gyration, 0.38 m, is a length of scale 4; at 1 m/s it moves at a rate of scale 2.
-TOUCHES, RESTS, STICKS = 4 * TOUCHES_WITHIN, 8 * RESTS_BELOW, 8 * STICK_SPEED
+#: What has scale 1 (`dynamics.scaling`), and the ball's radius of gyration and its speed of 1 m/s over that.
+UNIT, RATE = 0.07634615877076063, 1.2190829483452197
+LENGTH, SPEED = math.sqrt(0.1 / MASS) / UNIT, 1.0 / (UNIT * RATE)
+TOUCHES, RESTS, STICKS = LENGTH * TOUCHES_WITHIN, SPEED * RESTS_BELOW, SPEED * STICK_SPEED
 ENERGIES = tuple(Output(name, f"energy.{name}", "") for name in ("kinetic", "work", "lost"))
 
 
