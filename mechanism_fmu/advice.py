@@ -178,7 +178,7 @@ def _penetration(contact: Contact, block: Array, way_out: str) -> str:
 def _contradictions(mechanism: Mechanism, block: Array, closed: Collection[str]) -> str:
     """The bodies to which the joints give other rates than the start rates; where there are none, the joints."""
     length, _, _, rate = field_of(block, "scales").tolist()
-    within = RATES_WITHIN * min(1.0, length) * rate  # be they in m/s or rad/s
+    within = RATES_WITHIN * min(1.0, length) * (rate or 1.0)  # be they in m/s or rad/s
     left = _off(mechanism, field_of(block, "residual_rate"), closed, within)
     if left:
         return (

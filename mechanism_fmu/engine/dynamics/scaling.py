@@ -1,7 +1,7 @@
 """How large a mechanism is, and how fast: the scales are written when the motion begins, the present rate at events.
 
-A mechanism whose masses are 4^k times those of another, or whose lengths are 4^k and whose times 2^k times, moves as the
-other one does, to the last digit: nothing here rounds powers of two.
+A mechanism whose masses are 4^k times those of another, or whose lengths are 4^k and whose times 2^k times, moves as
+the other one does, to the last digit: nothing here rounds powers of two.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from ...tables.declare import Array
 from ...tables.motion import Course, Loads, Rows
 from ...tables.parts import Bodies, Outlines
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_apart, keep_small
+from ..compiler.subset import jit, keep_apart
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from .forces import apply_forces
 from .own_states import winding_rate
 
-#: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the paper's
-#: model; the numbers of `tolerances` are for its size.
+#: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
+#: paper's model; the numbers of `tolerances` are for its size.
 _LENGTH, _RATE, _MASS = 0.07634615877076063, 1.2190829483452197, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
@@ -81,6 +81,8 @@ def note_rate(block: Array, least: float) -> None:
         acts = max(acts, max(size[k], size[k + 1]) * inverse[k] / length)
         acts = max(acts, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
     rate = max(moves, math.sqrt(acts)) / _RATE
+    if not rate < math.inf:  # of what is no number, no step comes either
+        rate = 0.0
     if rate == 0.0:
         rate = winding_rate(block) / _RATE
     known = scales[codes.SCALE_PRESENT]

@@ -230,8 +230,8 @@ static int residuals(Instance *x, const double *residual, double more_than, char
 
 /* Start rates agree within this, be they in m/s or rad/s. */
 static double rates_within(Instance *x) {
-    const double *scales = FIELD(x, scales);
-    return RATES_WITHIN * (scales[CODE_SCALE_LENGTH] < 1 ? scales[CODE_SCALE_LENGTH] : 1) * scales[CODE_SCALE_PRESENT];
+    double length = FIELD(x, scales)[CODE_SCALE_LENGTH], rate = FIELD(x, scales)[CODE_SCALE_PRESENT];
+    return RATES_WITHIN * (length < 1 ? length : 1) * (rate > 0 ? rate : 1);
 }
 
 /* A rate as it is shown: nothing where rounding is all there is. */
