@@ -11,6 +11,8 @@ from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import STICK_SPEED
 
 GRAVITY = 9.81
+#: The ball's radius of gyration, 1 m, is a length of scale 4, and falls at a rate of scale 4 (`engine.scales`).
+SPEED_SCALE = 16.0
 
 
 def ball(restitution, *, height=1.0, mass=1.0, tolerance=1e-12, contacts=1):
@@ -38,7 +40,7 @@ def bounces(height, restitution):
     speed = math.sqrt(2 * GRAVITY * height)
     time = speed / GRAVITY
     found = [(time, speed)]
-    while restitution * speed >= STICK_SPEED:
+    while restitution * speed >= SPEED_SCALE * STICK_SPEED:
         speed *= restitution
         time += 2 * speed / GRAVITY
         found.append((time, speed))

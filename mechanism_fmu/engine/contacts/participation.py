@@ -15,6 +15,7 @@ from ...tolerances import PILED, RESTS_BELOW, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import BRAKE, rubs
 from ..dynamics.islands import leader_of
+from ..scales import contact_unit, present_rate
 from .binding import is_free
 from .guards import gap
 
@@ -123,7 +124,7 @@ def _touches(block: Array, at: Pose, contact: int) -> bool:
     keep_small()
     if Contacts(block).mode[contact] == codes.CLOSED:
         return True
-    return _exists_open(block, contact) and gap(block, at, contact)[0] <= TOUCHES_WITHIN
+    return _exists_open(block, contact) and gap(block, at, contact)[0] <= TOUCHES_WITHIN * contact_unit(block, contact)
 
 
 @jit
@@ -133,7 +134,7 @@ def _closes_now(block: Array, at: Pose, contact: int, left: float) -> bool:
     if not _exists_open(block, contact):
         return False
     distance, rate = gap(block, at, contact)
-    return distance <= left and rate < -RESTS_BELOW
+    return distance <= left and rate < -RESTS_BELOW * contact_unit(block, contact) * present_rate(block)
 
 
 @jit
