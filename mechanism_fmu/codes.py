@@ -34,6 +34,9 @@ FEATURE_TURN = 6  # the sine by which the way turns at a vertex, to the left; `F
 FEATURE_COLUMNS = 7
 FREE_END = 2
 
+# outline_closed: 0 of an open chain, 1 of a closed one with its material inside, or
+HOLE = 2  # outside
+
 # outline_data columns
 OUTLINE_X = 0  # the centre of a circle around it [m]
 OUTLINE_Y = 1
@@ -302,7 +305,9 @@ COUNT_PASSED = 24  # singular configurations that were passed, as far as the eng
 IMPLICIT_STEP = 25  # 1 where the engine's own step was linearly implicit that ends at STEP_END
 FIRST_IMPACT = 26  # where the oldest impact of the communication step is in its buffer, which goes round
 FIRST_EVENT = 27  # and the oldest event
-COUNTERS_LENGTH = 28
+UNDETERMINED = 28  # 1 + what the last choice has left undetermined (`doubts`), 0: nothing
+SEVERAL = 29  # 1 + what might have another mode since the last choice, 0: nothing
+COUNTERS_LENGTH = 30
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

@@ -124,8 +124,8 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     gap was zero when the step began, the clicks of a stop with memory, the line of the present copy (of stops and
     locks: the present angle), whether profiles have hollows (`codes.CONVEX` ...), one over how far their contact
     coordinates may go in a step [1/rad], and the first time at which a guided contact pulled [s] (infinity: never).
-    `row` is the constraint row of a closed contact; `least_push` the least contact force of the step last tried, over
-    its tolerance.
+    `row` is the constraint row of a closed contact; `least_push` and `most_push` are the least and the largest contact
+    force at the stages of the step last tried, over its tolerance.
     Contacts of profiles have contact coordinates, the first of which is `alpha`, and curves; `row_first` counts the
     rows that contacts have when contact coordinates are coordinates.
     Two outlines share a group of contacts, of which `group` is the first, one for each place where they touch at once;
@@ -163,6 +163,7 @@ class Contacts(Table, rows="contacts", prefix="contact_"):
     apart = real(holds=NOT_NEGATIVE)
     row = integer(work=True)
     least_push = real(name="least_push", work=True)
+    most_push = real(name="most_push", work=True)
 
 
 class Features(Table, rows="features", prefix="feature_"):

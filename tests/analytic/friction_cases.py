@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +22,7 @@ from mechanism_fmu.model import (
     polynomial_motion,
 )
 from mechanism_fmu.simulation import Simulation
+from tests.exchanged_oracle import oracle_path
 
 Case = Mapping[str, Any]
 
@@ -35,15 +34,15 @@ SHARES = {1e-9: 1e-8, 1e-12: 1e-10}
 AT_AN_INSTANT = 1e-12
 
 
-def kind_of(case: Case) -> int:
-    """The kind of a case: the number with which its id begins."""
-    return int(re.match(r"\d+", case["id"])[0])  # type: ignore[index]
+def kind_of(case: Case) -> str:
+    """The kind of a case: the number with which its id begins, or the whole id."""
+    number = re.match(r"\d+", case["id"])
+    return number[0] if number else str(case["id"])
 
 
 def all_cases() -> list[Case]:
     """The cases of the oracle, or of the file that FRICTION_ORACLE names."""
-    file = os.environ.get(OTHER_FILE) or Path(__file__).parents[1] / "data" / "friction.json"
-    cases: list[Case] = json.loads(Path(file).read_text(encoding="utf-8"))["cases"]
+    cases: list[Case] = json.loads(oracle_path(OTHER_FILE, "friction.json").read_text(encoding="utf-8"))["cases"]
     return cases
 
 

@@ -30,10 +30,10 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
     At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
-    whose slip has just been found to end, whatever speed the instant's rounding leaves. What takes no part in the event
-    stays as it is. It is taken to stick, unless it
-    has just let go; where it has not stuck before, it does so here. All that has friction is looked at where not
-    `only_touching`.
+    whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
+    has just let go: then its row may have drifted, too, and the sign of that speed says nothing of where it will slip.
+    Where it has not stuck before, it does so here. What takes no part in the event stays as it is. All that has
+    friction is looked at where not `only_touching`.
     """
     keep_small()
     table = Rubs(block)
@@ -46,7 +46,7 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         table.free[k] = codes.BOUND
         if island_of(block, k) == codes.NONE:
             continue
-        if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
+        if not (touches(block, k) or (coefficient(block, k) > 0.0 and not only_touching)):
             continue
         begins = table.slip[k] != codes.STICKS
         if begins:
@@ -55,7 +55,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if begins:  # also where it slips: an impact may end that
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        if abs(speed) > (slips_above if begins else max(slips_above, STUCK_BELOW)) and k != stopped:
+        drifts = not begins or let_go
+        if abs(speed) > (max(slips_above, STUCK_BELOW) if drifts else slips_above) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

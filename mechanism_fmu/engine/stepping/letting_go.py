@@ -6,8 +6,6 @@ Runge-Kutta steps, as gaps are (`events`).
 
 from __future__ import annotations
 
-import math
-
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
@@ -32,6 +30,14 @@ from .runge_kutta import try_step
 _LAST = METHOD.last
 #: Points of a step at which each force is looked at.
 _LOOKS = 8
+#: Stages may pass over a dip of a force as deep as this share of its change along them: they leave half of the step
+#: out, where a parabola dips by a quarter of that change, and a kink in a force by more.
+_DIPS_BELOW = 0.5
+#: Parts of a step by which looks are beside its ends, to see how a force goes there.
+_BESIDE = 1e-3
+#: Golden sections that find the bottom of a dip, to 1e-5 of two looks' distance: the force there is closer by squares.
+_GOLDEN = 0.3819660112501051
+_SECTIONS = 24
 #: How close, in parts of a step, it is found when a force is at its limit: of a contact's, what follows does not depend
 #: on the last digits of when.
 _CLOSE = 1e-15
@@ -74,7 +80,10 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
     fraction = 2.0
     table = Contacts(block)
     for c in range(table.mode.shape[0]):
-        if table.mode[c] == codes.CLOSED and can_open(block, c) and table.least_push[c] < _LETS_GO:
+        if table.mode[c] != codes.CLOSED or not can_open(block, c):
+            continue
+        least = table.least_push[c]
+        if least < _LETS_GO or least < _DIPS_BELOW * (table.most_push[c] - least):
             lets_go = _first_below(block, codes.GUARD_PUSH, c, min(latest, fraction), _LETS_GO, _PUSH_CLOSE)
             if lets_go < min(latest, fraction):
                 guard = codes.GUARD_PUSH
@@ -97,23 +106,48 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
 
 @jit
 def _first_below(block: Array, guard: int, subject: int, latest: float, limit: float, close: float) -> float:
-    """Where before `latest` a force falls to its limit; 2.0 when the dense output does not show it."""
+    """Where before `latest` a force falls to its limit, also between two looks; 2.0 when it does not."""
     keep_small()
-    before = 0.0
-    above = math.inf
-    for look in range(1, _LOOKS + 1):
-        after = min(latest, look / _LOOKS)
+    s = Stages(block)
+    last = min(latest, 1.0)
+    before = here = 0.0
+    above = push = _spare_at(block, guard, subject, here)
+    for look in range(_LOOKS + 2):
+        after = min(look / _LOOKS, 1.0) * last
+        if look == 0:
+            after = _BESIDE * last
+        elif look == _LOOKS:
+            after -= _BESIDE * last
         spare = _spare_at(block, guard, subject, after)
-        if spare < _LETS_GO:
-            if look == 1:
-                above = _spare_at(block, guard, subject, before)
-            found: float = _falls(block, guard, subject, before, above - limit, after, spare - limit, limit, close)
+        low, lowest = after, spare
+        if spare >= _LETS_GO and push <= min(above, spare) and push < above + spare - 2.0 * push:
+            low = _bottom(block, guard, subject, before, after)
+            lowest = _spare_at(block, guard, subject, low)
+            here, push = before, above
+        if lowest < _LETS_GO:
+            found: float = _falls(block, guard, subject, here, push - limit, low, lowest - limit, limit, close)
             return found
-        if after >= latest:
-            return 2.0
-        before = after
-        above = spare
+        before, here, above, push = here, after, push, spare
+    set_time(block, s.tried[0] + s.tried[1])
+    derivative(block, s.y_new, s.dy_at)  # what reads multipliers behind a step finds those of its end
     return 2.0
+
+
+@jit
+def _bottom(block: Array, guard: int, subject: int, before: float, after: float) -> float:
+    """Where between two looks a force is below its limit, or else least."""
+    keep_small()
+    for _ in range(_SECTIONS):
+        low = before + _GOLDEN * (after - before)
+        high = after - _GOLDEN * (after - before)
+        push = _spare_at(block, guard, subject, low)
+        if push < _LETS_GO:
+            return low
+        if push < _spare_at(block, guard, subject, high):
+            after = high
+        else:
+            before = low
+    return 0.5 * (before + after)
 
 
 @jit

@@ -41,8 +41,8 @@ def try_step(block: Array, start: float, size_: float) -> float:
 
     The step is accurate enough when that is at most 1. It is taken by the tableau of `METHOD`, or linearly implicit.
 
-    Writes y_new, all derivatives (the last one belongs to y_new), the dense output, `contacts.least_push`,
-    and by how much active rows are off at its end.
+    Writes y_new, all derivatives (the last one belongs to y_new), the dense output, `contacts.least_push` and
+    `most_push`, and by how much active rows are off at its end.
     """
     s = Stages(block)
     h = size_
@@ -51,9 +51,10 @@ def try_step(block: Array, start: float, size_: float) -> float:
     Course(block).counters[codes.COUNT_TRIES] += 1
     s.stage[0] = 0
     s.jams[0] = 0
-    least = Contacts(block).least_push
-    for c in range(least.shape[0]):
-        least[c] = 0.0
+    table = Contacts(block)
+    for c in range(table.least_push.shape[0]):
+        table.least_push[c] = math.inf
+        table.most_push[c] = -math.inf
     if rubs(block):
         clear(Rubs(block).least_hold)
     implicit = Course(block).counters[codes.IMPLICIT] == 1

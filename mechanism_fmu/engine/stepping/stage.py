@@ -37,12 +37,14 @@ def evaluate_stage(block: Array, time: float, y: Array, dy: Array) -> None:
 
 @jit
 def note_pushes(block: Array) -> None:
-    """After an acceleration: keep the least force of every closed contact."""
+    """After an acceleration: keep the least and the largest force of every closed contact."""
     table = Contacts(block)
     tolerance = push_tolerance(block, row_count(block))
     for c in range(table.mode.shape[0]):
         if table.mode[c] == codes.CLOSED:
-            table.least_push[c] = min(table.least_push[c], push_ratio(block, c, tolerance))
+            push = push_ratio(block, c, tolerance)
+            table.least_push[c] = min(table.least_push[c], push)
+            table.most_push[c] = max(table.most_push[c], push)
     if not rubs(block):
         return
     rub = Rubs(block)

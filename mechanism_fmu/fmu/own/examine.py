@@ -15,6 +15,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 from ...model import Calculated, Input, Mechanism, MechanismError, Model, Output, Parameter, compile_mechanism
 from ...model.attached import OldFormWarning
 from ...model.case_values import case_values
+from ...model.curves.measured import remark_on
 from ...model.functions import is_plain
 from ...model.trace import trace
 from ..parts.contents import model_of
@@ -180,7 +181,7 @@ def examine(module: ModuleType, path: Path, native: bool) -> list[str]:
         model_description(model, "")
         drawing(model)
         logic(model)  # which calls the model's functions with other values than the default ones
-        remarks = [*_degrees(model, mechanism), *_units(model, mechanism)]
+        remarks = [*_degrees(model, mechanism), *_units(model, mechanism), *_measured(mechanism)]
     try:
         with explained(path):
             trace(model)
@@ -253,6 +254,16 @@ def _units(model: Model, mechanism: Mechanism) -> Iterator[str]:
                 f"{port.name} has the description {port.description!r}, which looks like a unit; the description "
                 "comes before the unit."
             )
+
+
+def _measured(mechanism: Mechanism) -> Iterator[str]:
+    """Motions and profiles through measured points whose curvature is noise."""
+    joints = [(joint, joint.motion) for joint in mechanism.joints]
+    contacts = [(contact, profile) for contact in mechanism.contacts for profile in contact.profiles]
+    for part, curve in (*joints, *contacts):
+        remark = None if curve is None else remark_on(curve)
+        if remark is not None:
+            yield f"{type(part).__name__} {part.name!r}: its curve {remark}"
 
 
 def _is_unit(text: str) -> bool:

@@ -85,6 +85,40 @@ class Piece:
 
 
 @dataclass(frozen=True)
+class Smoothing:
+    """Assumptions and results of a smoothing spline.
+
+    Attributes:
+        noise: standard deviation of the points about the true curve, as given [unit of the curve].
+        scatter: the same, estimated from the points alone [unit of the curve].
+        points: how many there are.
+        pieces: of the spline.
+        degree: of its pieces.
+        rms: root mean square of the residuals, points minus spline [unit of the curve].
+        largest: largest residual [unit of the curve].
+        second_derivative_change: largest difference of the second derivative, at a point, from that of the spline
+            through all points [unit of the curve / unit of its variable^2].
+    """
+
+    noise: float
+    scatter: float
+    points: int
+    pieces: int
+    degree: int
+    rms: float
+    largest: float
+    second_derivative_change: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.points} points with noise of {self.noise:.3g} (they scatter by about {self.scatter:.2g}): "
+            f"{self.pieces} pieces of degree {self.degree}; residuals {self.rms:.3g} (rms), {self.largest:.3g} "
+            "(largest); the second derivative changes by up to "
+            f"{self.second_derivative_change:.3g} from that of the spline through the points."
+        )
+
+
+@dataclass(frozen=True)
 class Curve:
     """A function of one variable.
 
@@ -94,6 +128,7 @@ class Curve:
         start: where the range of a profile begins, in the unit of its variable; of a periodic curve, of the period.
         span: the length of that range, in the same unit.
         periodic: whether it repeats itself.
+        smoothing: of measured points, what it assumes of their noise; None where it goes through its points.
 
     Raises:
         MechanismError: `pieces` is no tuple of `Piece`s, or start or span is no number.
@@ -103,6 +138,7 @@ class Curve:
     start: Number = 0.0
     span: Number = 0.0
     periodic: bool = False
+    smoothing: Smoothing | None = None
 
     def __post_init__(self) -> None:
         """Refuse arguments of the wrong kind, as `Term` does."""
@@ -188,22 +224,28 @@ def spline_pieces(knots: Sequence[float], values: Sequence[Number], degree: int,
     Raises:
         MechanismError: another degree, too few points, a place without a value, or knots that do not increase.
     """
-    if degree not in (3, 5):
-        raise MechanismError(f"A spline of degree {degree} is not made here; take 3 (C2) or 5 (C4).")
-    points = len(knots) - periodic
-    if len(values) != points:
-        raise MechanismError(f"A spline has {points} places for {len(values)} values; give as many of each.")
-    widths = np.diff(np.asarray(knots, dtype=float))
-    if points < 3 or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
-        where = ", ".join(f"{float(knot):g}" for knot in knots)
-        again = "; the last one is where it repeats itself" if periodic else ""
-        raise MechanismError(f"A spline needs at least 3 points at increasing places, but they are at {where}{again}.")
+    widths = spline_widths(knots, len(values), degree, periodic)
     coefficients = _coefficients(widths, degree, periodic)
     pieces = []
     for k, start in enumerate(knots[:-1]):
         terms = [_combine(row, values) for row in coefficients[k]]
         pieces.append(Piece(float(start), (Term(tuple(terms)),)))
     return tuple(pieces)
+
+
+def spline_widths(knots: Sequence[float], count: int, degree: int, periodic: bool) -> Matrix:
+    """Distances of the knots of a spline through `count` values, as of `spline_pieces`, which refuses the same."""
+    if degree not in (3, 5):
+        raise MechanismError(f"A spline of degree {degree} is not made here; take 3 (C2) or 5 (C4).")
+    points = len(knots) - periodic
+    if count != points:
+        raise MechanismError(f"A spline has {points} places for {count} values; give as many of each.")
+    widths = np.diff(np.asarray(knots, dtype=float))
+    if points < 3 or not np.all(np.isfinite(widths)) or not np.all(widths > 0.0):
+        where = ", ".join(f"{float(knot):g}" for knot in knots)
+        again = "; the last one is where it repeats itself" if periodic else ""
+        raise MechanismError(f"A spline needs at least 3 points at increasing places, but they are at {where}{again}.")
+    return widths
 
 
 def plain_places(places: Sequence[Number], what: str) -> list[float]:

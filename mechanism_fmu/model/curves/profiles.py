@@ -9,6 +9,8 @@ import math
 from collections.abc import Sequence
 
 from ..functions import Number
+from ..quantities import quantity
+from .measured import smooth_periodic
 from .motions import Law, Move, cycloidal, moves_to_pieces
 from .pieces import Curve, Piece, Term, constant, cosine, plain_places, sine, spline_pieces
 
@@ -53,25 +55,38 @@ def piecewise_profile(*pieces: tuple[Number, Sequence[Term]]) -> Curve:
     return _closed(tuple(Piece(start, tuple(terms)) for start, terms in pieces))
 
 
-def spline_profile(radii: Sequence[Number], angles: Sequence[float] | None = None, degree: int = 3) -> Curve:
-    """A closed profile through points: the periodic spline of third degree (C2) or fifth (C4).
+def spline_profile(
+    radii: Sequence[Number],
+    angles: Sequence[float] | None = None,
+    degree: int | None = None,
+    noise: float | str | None = None,
+) -> Curve:
+    """A closed profile through points, or within their noise: the periodic spline of third degree (C2) or fifth (C4).
 
     Args:
         radii: [m].
         angles: increasing, within one turn [rad]; equidistant from 0 on when left out.
-        degree: 3 or 5.
+        degree: 3 or 5; when left out 3, and 5 with noise.
+        noise: standard deviation of measured radii about the true profile [m], or with its unit, e.g. "1 um"; the
+            spline is then a smoothing one, and its `smoothing` says what it assumes. Radii must be plain numbers, and
+            scipy be installed.
 
     Raises:
         MechanismError: fewer than 3 points, another count of angles or degree, or angles that do not increase or that
-            depend on a parameter.
+            depend on a parameter; with noise, scipy is missing, radii depend on parameters, or no spline is found.
 
     Source: C. de Boor, A Practical Guide to Splines: the interpolating spline, periodic; each piece by the Hermite
-        polynomial of its ends, and what is unknown there from continuous higher derivatives.
+        polynomial of its ends, and what is unknown there from continuous higher derivatives. With noise: P. Dierckx,
+        Curve and Surface Fitting with Splines, FITPACK's `percur` by scipy.
     """
     count = len(radii)
     places = [_TURN * k / count for k in range(count)] if angles is None else plain_places(angles, "angle")
     knots = [*places, places[0] + _TURN] if places else [0.0]
-    return Curve(spline_pieces(knots, radii, degree, periodic=True), knots[0], _TURN, periodic=True)
+    if noise is not None:
+        return smooth_periodic(knots, radii, 5 if degree is None else degree, quantity(noise, "m", "noise"))
+    return Curve(
+        spline_pieces(knots, radii, 3 if degree is None else degree, periodic=True), knots[0], _TURN, periodic=True
+    )
 
 
 def motion_profile(base_radius: Number, moves: Sequence[Move], back: Law = cycloidal) -> Curve:

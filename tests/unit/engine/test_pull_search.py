@@ -4,6 +4,8 @@ A lever on a stop, pressed by a spring of 1 N m/rad whose other end is a disc: t
 of the disc. Another disc may meet a wall in the same step. The step is 1 s long.
 """
 
+import math
+
 import pytest
 from written_step import NOTHING, T, search, write
 
@@ -19,8 +21,11 @@ LEVER, WALL = 0, 1
 DISC_ANGLE, OTHER_ANGLE = 5, 8
 
 
-def found(push, *, gap=1.0 + 0 * T, seen=-10.0):
-    """What the search answers when the stop's torque is `push`, the wall's gap `gap`; `seen`: at the step's stages."""
+def found(push, *, gap=1.0 + 0 * T, seen=(-10.0, 10.0)):
+    """What the search answers when the stop's torque is `push`, the wall's gap `gap`.
+
+    `seen`: the least and the largest torque at the step's stages, over the tolerance.
+    """
     mechanism = Mechanism(
         bodies=(
             Body("lever", 1.0, 1.0),
@@ -34,7 +39,8 @@ def found(push, *, gap=1.0 + 0 * T, seen=-10.0):
     assert simulation.mode() == ("stop",)
     block = simulation._block
     field_of(block, "tried")[:] = (0.0, 1.0)
-    field_of(block, "least_push")[:] = (seen, 0.0)
+    field_of(block, "least_push")[:] = (seen[0], 0.0)
+    field_of(block, "most_push")[:] = (seen[1], 0.0)
     write(block, {DISC_ANGLE: -push, OTHER_ANGLE: gap})
     return search(block)
 
@@ -56,6 +62,14 @@ def test_a_pull_counts_that_comes_and_goes(begins, ends):
     assert_opens(found((T - begins) * (T - ends)), begins + OPENS_BELOW / (ends - begins))
 
 
+@pytest.mark.parametrize(("begins", "ends"), [(0.002, 0.004), (0.03, 0.05), (0.3, 0.301), (0.51, 0.6), (0.97, 0.99)])
+def test_a_pull_counts_between_two_looks(begins, ends):
+    """Though at no stage there was one: the torque has fallen far enough along them for a dip between."""
+    width = ends - begins
+    opens = begins + 0.5 * (width - math.sqrt(width**2 - 4.0 * OPENS_BELOW))
+    assert_opens(found((T - begins) * (T - ends), seen=(1e5, 1e6)), opens)
+
+
 def test_a_pull_before_the_step_does_not_count():
     assert_opens(found((T + 0.05) * (0.1 - T)), 0.1 + OPENS_BELOW / 0.15)
 
@@ -66,8 +80,9 @@ def test_a_force_that_has_not_gone_by_the_end_of_the_step_is_no_event(push):
     assert found(push) == NOTHING
 
 
-def test_only_a_pull_at_a_stage_is_looked_into():
-    assert found(0.5 - T, seen=-1.0) == NOTHING
+@pytest.mark.parametrize("seen", [(1.0, 2.9), (1e6, 2.9e6)])
+def test_what_has_hardly_changed_along_the_stages_is_not_looked_into(seen):
+    assert found(0.5 - T, seen=seen) == NOTHING
 
 
 @pytest.mark.parametrize(("opens", "strikes"), [(0.3, 0.6), (0.26, 0.27), (0.1, 0.9), (0.8, 0.81)])
