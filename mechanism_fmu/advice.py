@@ -43,6 +43,7 @@ _ABOUT_CONTACTS = (
     status.ROW_AWAY,
     status.NO_CONTACT_POINT,
     status.BRIDGED,
+    status.FEW_POINTS,
 )
 
 

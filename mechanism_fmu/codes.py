@@ -34,6 +34,9 @@ FEATURE_TURN = 6  # the sine by which the way turns at a vertex, to the left; `F
 FEATURE_COLUMNS = 7
 FREE_END = 2
 
+# outline_closed: 0 of an open chain, 1 of a closed one with its material inside, or
+HOLE = 2  # outside
+
 # outline_data columns
 OUTLINE_X = 0  # the centre of a circle around it [m]
 OUTLINE_Y = 1
@@ -266,13 +269,12 @@ STEP_START = 1  # the engine's own step, which may reach beyond TIME
 STEP_END = 2
 STEP_SIZE = 3
 NEXT_STEP = 4
-LAST_EVENT = 5  # when the run of events began that PILE counts
-RAMP_START = 6  # when the slopes of inputs began to act
-RAMP_END = 7  # up to where they are known: no step goes beyond
-STEP_BEGUN = 8  # where the communication step began
-PASSED_AT = 9  # of the last singular configuration that was passed; before the first one, where the motion began
-COMPLETED = 10  # the last step of an importer that integrates itself
-CLOCK_LENGTH = 11
+RAMP_START = 5  # when the slopes of inputs began to act
+RAMP_END = 6  # up to where they are known: no step goes beyond
+STEP_BEGUN = 7  # where the communication step began
+PASSED_AT = 8  # of the last singular configuration that was passed; before the first one, where the motion began
+COMPLETED = 9  # the last step of an importer that integrates itself
+CLOCK_LENGTH = 10
 
 # columns of the state's counters
 COUNT_IMPACTS = 0
@@ -284,7 +286,7 @@ PENDING_SUBJECT = 5  # its contact, pattern or logical function
 COUNT_PULLS = 6  # guided contacts that have pulled, as far as the engine has computed
 COUNT_EVENTS = 7
 EVENTS_IN_STEP = 8
-PILE = 9  # events that followed each other without progress
+PILE = 9  # events that followed each other without progress, of the bodies that took part in the last one
 RAMPING = 10  # 1 while an input has a slope
 RANK = 11  # of the active rows since the last event
 FALLING = 12  # 1 when `course.independence_end` was falling at STEP_END
@@ -301,7 +303,11 @@ COUNT_IMPLICIT = 22  # accepted steps since the start that were linearly implici
 COUNT_BACK = 23  # times that the explicit method has been taken again
 COUNT_PASSED = 24  # singular configurations that were passed, as far as the engine has computed
 IMPLICIT_STEP = 25  # 1 where the engine's own step was linearly implicit that ends at STEP_END
-COUNTERS_LENGTH = 26
+FIRST_IMPACT = 26  # where the oldest impact of the communication step is in its buffer, which goes round
+FIRST_EVENT = 27  # and the oldest event
+UNDETERMINED = 28  # 1 + what the last choice has left undetermined (`doubts`), 0: nothing
+SEVERAL = 29  # 1 + what might have another mode since the last choice, 0: nothing
+COUNTERS_LENGTH = 30
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

@@ -315,8 +315,8 @@ class MovingMechanism:
         Args:
             last: only that many, the last ones; None: all that are kept.
         """
-        count = int(self.counters[codes.COUNT_IN_STEP])
-        records = self._impacts[_first(count, last) : count].tolist()
+        places = self._places(codes.FIRST_IMPACT, codes.COUNT_IN_STEP, len(self._impacts), last)
+        records = self._impacts[places, : codes.RECORD_CONTACT_IMPULSES].tolist()
         names = self._contacts
         return [
             Impact(
@@ -337,8 +337,8 @@ class MovingMechanism:
         Args:
             last: only that many, the last ones; None: all that are kept.
         """
-        count = int(self.counters[codes.EVENTS_IN_STEP])
-        records = self._events[_first(count, last) : count].tolist()
+        places = self._places(codes.FIRST_EVENT, codes.EVENTS_IN_STEP, len(self._events), last)
+        records = self._events[places].tolist()
         return [
             Event(
                 record[codes.EVENT_TIME],
@@ -349,6 +349,12 @@ class MovingMechanism:
             )
             for record in records
         ]
+
+    def _places(self, first: int, kept: int, length: int, last: int | None) -> Array:
+        """Places of the records of a buffer that goes round, oldest first, or of the last of them."""
+        count = int(self.counters[kept])
+        begin = 0 if last is None else max(count - last, 0)
+        return (int(self.counters[first]) + np.arange(begin, count)) % length
 
     def mode(self) -> tuple[str, ...]:
         """Names of the contacts that are closed now."""
@@ -375,8 +381,3 @@ class MovingMechanism:
             error = kind(f"t = {self.time:.9g} s: {status.ADVICE[outcome]}{self._details(outcome)}")
             error.picture = picture_of_overlap(self._mechanism, self._block, outcome)
             raise error
-
-
-def _first(count: int, last: int | None) -> int:
-    """The first of the `last` records of `count`."""
-    return 0 if last is None else max(count - last, 0)

@@ -14,7 +14,7 @@ from mechanism_fmu.engine.compiler.subset import COMPILES
 from mechanism_fmu.model import MechanismError
 from mechanism_fmu.processors import processors
 
-from .. import growth
+from .. import crowd, growth
 from ..timing import Comparison
 from .number import Number, Part, is_here
 from .quick import of_limits
@@ -39,6 +39,7 @@ def parts() -> list[Part]:
     return [
         *_comparisons(_ROUNDS),
         Part("growth", lambda _: growth_of(_OF_GROWTH), ("numba",)),
+        Part("crowds", lambda _: crowds(), ("numba",)),
         Part("processors", lambda _: cores(_OF_PROCESSORS), ("numba", "pyarrow", "ziglang")),
         Part("many designs", lambda folder: many(folder, _ROUNDS), ("mujoco", "numba", "scipy")),
         Part("a day of ticks", lambda _: ticks(_TICKS)),
@@ -100,6 +101,20 @@ def growth_of(rounds: int, sizes: Sequence[int] = growth.SIZES, many: Sequence[i
         yield Number("speed", f"{one.name}, power of their number", "1", one.exponent)
         most = max(one.written)
         yield Number("speed", f"{most} {one.name}: written of the block", "MB", one.written[most])
+
+
+def crowds(counts: Sequence[int] = crowd.COUNTS) -> Iterator[Number]:
+    """An impact in crowds of balls.
+
+    Args:
+        counts: of balls.
+    """
+    found = list(crowd.measure(counts))
+    for one in found:
+        yield Number("speed", f"an impact among {one.count} balls, all kept", "ms", 1e3 * one.kept)
+    if len(found) > 1:
+        times = {one.count: one.kept for one in found}
+        yield Number("speed", "an impact among balls, power of their number", "1", growth.exponent(times))
 
 
 def cores(rounds: int) -> Iterator[Number]:

@@ -175,7 +175,9 @@ def _last_impact(block: Array, _at: Pose, index: int, _slot: int, _value: float)
 
 @jit
 def _buffered_impact(block: Array, _at: Pose, index: int, slot: int, _value: float) -> float:
-    return float(Course(block).impacts[slot, index])
+    now = Course(block)
+    place = (now.counters[codes.FIRST_IMPACT] + slot) % now.impacts.shape[0]
+    return float(now.impacts[place, index])
 
 
 @jit
@@ -183,7 +185,8 @@ def _buffered_event(block: Array, _at: Pose, index: int, slot: int, _value: floa
     """A field of an event of the last communication step; in an empty slot time, guard and subject are -1."""
     now = Course(block)
     if slot < now.counters[codes.EVENTS_IN_STEP]:
-        value: float = now.events[slot, index]
+        place = (now.counters[codes.FIRST_EVENT] + slot) % now.events.shape[0]
+        value: float = now.events[place, index]
         return value
     if index <= codes.EVENT_SUBJECT:
         return -1.0

@@ -22,9 +22,10 @@ MANY_TOUCH = 18
 PENETRATED = 19
 PASSED_OVER = 20
 FORCE_PASSED_OVER = 21
+FEW_POINTS = 22
 
 #: How an event can fail, after which nothing goes on (see `codes.GUARD_FAILED`).
-EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH, PENETRATED)
+EVENT_FAILURES = (NO_CHOICE, CHATTERING, JAMMED, ROW_AWAY, MANY_TOUCH, PENETRATED, FEW_POINTS)
 #: A communication step that ended early; the next one goes on from the time reached.
 OUT_OF_STEPS = (TOO_MANY_STEPS, NO_PROGRESS)
 
@@ -40,10 +41,13 @@ ADVICE = {
     NO_PROGRESS: "No progress: a tenth of max_internal_steps has not covered a hundredth of the communication step, "
     "because something is very stiff or very fast. The time reached is good, and the next step goes on from there. "
     "Check the size of inputs and parameters, take shorter communication steps, or give a larger max_internal_steps.",
-    NO_CHOICE: "No set of pushing contacts agrees with the motion; with friction, no finite forces may (Painleve's "
-    "paradox). Change lengths or start positions a little; give less friction, or the mechanism tangential_shock=True.",
-    MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Give an OutlineContact more points; let "
-    "less of them meet at one instant: change lengths or start positions a little.",
+    NO_CHOICE: "No set of pushing contacts agrees with the motion: all modes of the contacts that touch were tried. "
+    "With friction, none has finite forces (Painleve's paradox). Give the mechanism tangential_shock=True, by which an "
+    "impact leads on; or less friction, or lengths or start positions that differ a little.",
+    MANY_TOUCH: "More contacts touch at once, or stick, than can be resolved. Let fewer of them meet at one instant: "
+    "change lengths or start positions a little.",
+    FEW_POINTS: "Two outlines touch at more places at once than their OutlineContact has points. Leave its points out, "
+    "or give it more.",
     PENETRATED: "Two bodies that may touch have gone into each other: a corner was grazed between two looks, an "
     "outline came in past the open end of another, a pattern went on to a copy whose line the point was behind, or two "
     "that no contact keeps apart carried a third along. Give a smaller relative_tolerance, close the outline, let the "

@@ -225,7 +225,7 @@ def compile_tables(mechanism: Mechanism) -> MechanismTables:
                     tables.Outlines,
                     first=np.cumsum([0, *map(len, outlines.features)])[:-1].tolist(),
                     count=[len(chain_) for chain_ in outlines.features],
-                    closed=[int(outline.closed) for outline, _ in outlines.all],
+                    closed=[outline.closed + outline.hole for outline, _ in outlines.all],
                     copies=[0 if copies is None else copies.count for _, copies in outlines.all],
                     data=[(*around(o), *((0.0, 0.0, 0.0) if c is None else c.data())) for o, c in outlines.all],
                 ),

@@ -41,6 +41,14 @@ def is_plain(x: object) -> bool:
     return isinstance(x, (int, float, np.number, np.bool_))
 
 
+def nominal(x: Number) -> float:
+    """A plain number as a float; a symbolic one where all parameters have the values at which they start.
+
+    It is NaN where these are not known. Only what belongs to the structure may follow from it.
+    """
+    return float(x) if is_plain(x) else float(getattr(x, "nominal", math.nan))
+
+
 def _law(*operands: Number) -> Any:
     """The law that one of the operands belongs to, or None."""
     return next((x.law for x in operands if hasattr(x, "law")), None)

@@ -80,7 +80,7 @@ class _Completed:
     @cached_property
     def _symbols(self) -> SimpleNamespace:
         recorder = Recorder()
-        return SimpleNamespace(**{p.name: recorder.parameter(k) for k, p in enumerate(self.parameters)})
+        return SimpleNamespace(**{p.name: recorder.parameter(k, start=p.start) for k, p in enumerate(self.parameters)})
 
     @cached_property
     def _symbolic(self) -> Mechanism | None:

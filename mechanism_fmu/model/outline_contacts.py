@@ -16,6 +16,7 @@ from .findings import Finding, length, positive, refuse_unless
 from .functions import Number
 from .outlines import Outline
 from .outlines.features import Feature, around, features
+from .outlines.places import MOST_PLACES, places_at_once
 from .quantities import pair
 
 
@@ -99,8 +100,8 @@ class OutlineContact(OutlineFacts):
     if the outline goes on smoothly or a rounding goes around a corner, else the contact opens. A face on a face is two
     contacts, at the ends of what they have in common.
 
-    In a mechanism it stands `points` times, as `name`, `name_2` ..., one for each place where the outlines touch at
-    once; the first that is free stands for the nearest pair of features.
+    In a mechanism it stands as often as there are places where the outlines can touch at once, as `name`, `name_2` ...;
+    the first that is free stands for the nearest pair of features.
 
     Outputs: `force` [N], along the common normal, on body i away from body j; 0 when open. `gap` [m], of the nearest
     features that do not touch yet; 0 when closed.
@@ -115,7 +116,7 @@ class OutlineContact(OutlineFacts):
         friction: coefficient of Coulomb friction along the common tangent [1], >= 0.
         friction_static: the same while it sticks [1], at least as large; None: as large.
         enabled: whether the contact exists; a number, so that a parameter can switch it off.
-        points: at how many places the outlines can touch at once, 1..20.
+        points: a bound of the places where the outlines can touch at once, 1..20; None: as many as their shapes allow.
         place: which of them this is, from 0; a `Mechanism` makes the others.
 
     Raises:
@@ -136,7 +137,7 @@ class OutlineContact(OutlineFacts):
     friction: Number = 0.0
     friction_static: Number | None = None
     enabled: Number = True
-    points: int = 2
+    points: int | None = None
     place: int = 0
 
     def data(self) -> tuple[Number, ...]:
@@ -150,11 +151,15 @@ class OutlineContact(OutlineFacts):
         Raises:
             MechanismError: there are less than 1 or more than 20 points.
         """
-        if not 1 <= self.points <= 20:
-            raise MechanismError(f"{self.label}: points = {self.points} is outside 1..20.")
+        if self.points is not None and not 1 <= self.points <= MOST_PLACES:
+            raise MechanismError(f"{self.label}: points = {self.points} is outside 1..{MOST_PLACES}.")
         if self.place:
             return ()
-        others = (replace(self, name=f"{self.name}_{k + 1}", place=k) for k in range(1, self.points + 1))
+        points = self.points
+        if points is None:
+            step, count = (None, 1) if self.copies is None else (self.copies.data(), self.copies.count)
+            points = places_at_once(self.outline_i, self.outline_j, step, count)
+        others = (replace(self, name=f"{self.name}_{k + 1}", place=k) for k in range(1, points + 1))
         return (self, *others)
 
     def shape_findings(self) -> Iterator[Finding]:

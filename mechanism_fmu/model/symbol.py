@@ -2,13 +2,32 @@
 
 from __future__ import annotations
 
+import math
+import operator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NoReturn
 
+from . import functions
 from .errors import MechanismError
 from .findings import Finding
 from .functions import Number, is_plain
 from .operators import Recorded
+
+#: Operations on plain numbers.
+APPLY: dict[str, Callable[..., float]] = {
+    "add": operator.add,
+    "subtract": operator.sub,
+    "multiply": operator.mul,
+    "divide": operator.truediv,
+    "negate": operator.neg,
+    "sin": functions.sin,
+    "cos": functions.cos,
+    "tan": functions.tan,
+    "sqrt": functions.sqrt,
+    "atan2": functions.atan2,
+    "where_positive": functions.where_positive,
+}
 
 
 @dataclass(frozen=True)
@@ -50,12 +69,15 @@ class Recorder:
 
     operations: list[Operation] = field(default_factory=list)
     refusals: list[Finding] = field(default_factory=list)
+    _starts: dict[int, float] = field(default_factory=dict)
+    _nominal: list[float] = field(default_factory=list)
     _limits: dict[int, Limits] = field(default_factory=dict)
     _known: dict[tuple[str, tuple[int, ...], str], int] = field(default_factory=dict)
 
-    def parameter(self, place: int, limits: Limits | None = None) -> Symbol:
-        """The symbol of the parameter at a place, whose values may be known to have limits."""
+    def parameter(self, place: int, limits: Limits | None = None, start: float = math.nan) -> Symbol:
+        """The symbol of the parameter at a place; its limits and the value at which it starts may be known."""
         symbol = Symbol(self, self._number("parameter", (), float(place)))
+        self._starts[symbol.number] = start
         if limits is not None:
             self._limits[symbol.number] = limits
         return symbol
@@ -63,6 +85,19 @@ class Recorder:
     def limits(self, symbol: Symbol) -> Limits | None:
         """The limits of a parameter; of the result of any other operation, none are known."""
         return self._limits.get(symbol.number)
+
+    def nominal(self, symbol: Symbol) -> float:
+        """The value of a symbol for the values at which all parameters start; NaN where it has none."""
+        for number, operation in enumerate(self.operations[len(self._nominal) :], len(self._nominal)):
+            operands = [self._nominal[i] for i in operation.operands]
+            value = self._starts.get(number, operation.value)
+            if operands:
+                try:
+                    value = APPLY[operation.name](*operands)
+                except (ArithmeticError, MechanismError, ValueError):
+                    value = math.nan
+            self._nominal.append(value)
+        return self._nominal[symbol.number]
 
     def apply(self, name: str, *operands: Number) -> Symbol:
         """The symbol of an operation's result; operands are symbols of this recorder and plain numbers."""
@@ -127,6 +162,11 @@ class Symbol(Recorded):
     def limits(self) -> Limits | None:
         """What is known of its values, where it is a parameter and nothing more."""
         return self.recorder.limits(self)
+
+    @property
+    def nominal(self) -> float:
+        """Its value where all parameters have the values at which they start (`functions.nominal`)."""
+        return self.recorder.nominal(self)
 
     def sin(self) -> Symbol:
         """Sine."""

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from . import functions
 from .checks.check_numbers import number_findings
 from .compile import Array, MechanismTables, compile_mechanism, compile_tables
 from .errors import MechanismError, place_of
@@ -20,21 +18,7 @@ from .functions import Number, where_positive
 from .mechanism import Mechanism
 from .model import Model
 from .ports import Parameter
-from .symbol import Limits, Operation, Recorder, Symbol
-
-_APPLY: dict[str, Callable[..., float]] = {
-    "add": operator.add,
-    "subtract": operator.sub,
-    "multiply": operator.mul,
-    "divide": operator.truediv,
-    "negate": operator.neg,
-    "sin": functions.sin,
-    "cos": functions.cos,
-    "tan": functions.tan,
-    "sqrt": functions.sqrt,
-    "atan2": functions.atan2,
-    "where_positive": functions.where_positive,
-}
+from .symbol import APPLY, Limits, Operation, Recorder, Symbol
 
 
 @dataclass(frozen=True)
@@ -106,7 +90,7 @@ class Trace:
             elif operation.name == "constant":
                 known[number] = operation.value
             else:
-                known[number] = _APPLY[operation.name](*(known[i] for i in operation.operands))
+                known[number] = APPLY[operation.name](*(known[i] for i in operation.operands))
         return [known[x.number] if isinstance(x, Symbol) else float(x) for x in wanted]
 
 
@@ -117,7 +101,9 @@ def trace(model: Model) -> Trace:
         MechanismError: the model branches on a parameter, or an integer table or a table's shape depends on one.
     """
     recorder = Recorder()
-    values = SimpleNamespace(**{p.name: recorder.parameter(i, _limits(p)) for i, p in enumerate(model.parameters)})
+    values = SimpleNamespace(
+        **{p.name: recorder.parameter(i, _limits(p), p.start) for i, p in enumerate(model.parameters)}
+    )
     plain = compile_mechanism(model.build(model.values()))
     try:
         mechanism = model.mechanism(values)

@@ -22,7 +22,6 @@ _CLOCK = {
     "STEP_END": FINITE,
     "STEP_SIZE": NOT_NEGATIVE,
     "NEXT_STEP": NOT_NEGATIVE._replace(high=math.inf, nan=True),
-    "LAST_EVENT": FINITE,
     "RAMP_START": FINITE,
     "RAMP_END": FINITE,
     "STEP_BEGUN": FINITE,
@@ -56,6 +55,10 @@ _COUNTERS = {
     "COUNT_BACK": COUNT,
     "COUNT_PASSED": COUNT,
     "IMPLICIT_STEP": whole(0, 0, "may_be_implicit"),
+    "FIRST_IMPACT": whole(0, -1, "buffer"),
+    "FIRST_EVENT": whole(0, -1, "event_buffer"),
+    "UNDETERMINED": whole(0, 0, "rubs"),
+    "SEVERAL": whole(0, 0, "rubs"),
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {
@@ -82,14 +85,16 @@ _EVENT = {
 class Course(Table):
     """How far the motion has come.
 
-    Clock, counters and ledger (columns in `codes`); y = (q, qd, work, loss, alpha, own) and its derivative at the end
+    Clock, counters and ledger (columns in `codes`); of each body, when its run of events without progress began, and
+    how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end
     of the engine's own step, and the step's dense output; how independent the active rows are there (see `singular`);
-    the last impact, and impacts and events of the last communication step.
+    the last impact, and impacts and events of the last communication step, in buffers that go round.
     """
 
     clock = real(codes.CLOCK_LENGTH, holds=_CLOCK)
     counters = integer(codes.COUNTERS_LENGTH, holds=_COUNTERS)
     ledger = real(codes.LEDGER_LENGTH, holds=FINITE)
+    accumulation = real("bodies", 2, holds=FINITE)
     y_end = real("unknowns", holds=FINITE)
     dy_end = real("unknowns", holds=ANY)
     dense = real(METHOD.dense_rows, "unknowns", holds=FINITE)
@@ -269,7 +274,9 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     closing speed and impulse; the contacts that a complementarity problem decides about, and which problem it is
     (columns in `complementarity`); all rates before the impact, and before its present round; whether each contact is
     closed for that; its coefficient of restitution and impulse of compression; the line along which a point slides; its
-    mode before the event, and before what happens within it.
+    mode before the event, and before what happens within it. Of each body the island in which it takes part in the
+    event (see `contacts.participation`); of each island one more than the last round in which a contact approached, or
+    0.
     """
 
     role = integer(work=True)
@@ -277,7 +284,7 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     closing = real(work=True)
     impulse = real(work=True)
     candidates = integer(name="candidates", work=True)
-    problem = integer(3, alone=True, name="problem", work=True)
+    problem = integer(4, alone=True, name="problem", work=True)
     rates_before = real("coordinates", alone=True, name="rates_before", work=True)
     rates_of_round = real("coordinates", alone=True, name="rates_of_round", work=True)
     closed = integer(work=True)
@@ -285,6 +292,8 @@ class Strikes(Table, rows="contacts", prefix="contact_"):
     compression = real(work=True)
     tangent_line = real(4, alone=True, name="tangent_line", work=True)
     earlier = integer(2, work=True)
+    island = integer("frames", alone=True, name="event_island", work=True)
+    approached = integer("frames", alone=True, name="event_approached", work=True)
 
 
 class Watch(Table, rows="guards", prefix="guard_"):
@@ -311,7 +320,7 @@ class Exchange(Table, rows="guards", prefix="exchange_"):
     indicator is lifted; gap and gap rate of each contact, unknowns and their derivatives at COMPLETED.
 
     Scratch: the indicators, the last of which is of the turns of bodies; how far the next piece of a driver's motion
-    is [s]; 1 where a completed step is to be followed by event mode.
+    is [s]; 1 where a completed step is to be followed by event mode; 1 while derivatives are an importer's.
     """
 
     leaves = integer("contacts", alone=True, name="exchange_leaves", holds=FLAG)
@@ -322,6 +331,7 @@ class Exchange(Table, rows="guards", prefix="exchange_"):
     indicator = real("indicators", alone=True, name="exchange_indicator", work=True)
     next_piece = real(1, alone=True, name="exchange_next_piece", work=True)
     wants_events = integer(1, alone=True, name="exchange_wants_events", work=True)
+    integrates = integer(1, alone=True, name="exchange_integrates", work=True)
 
 
 #: So many steps of difference quotients are tried (`engine.exchange.sensitivities`).

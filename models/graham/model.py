@@ -102,7 +102,7 @@ def mechanism(values: SimpleNamespace) -> Mechanism:
     )
     tooth, copies = pin_tooth(TEETH, RADIUS, values.tip_radius), CircularCopies(TEETH)
     contacts = tuple(
-        OutlineContact(name, pendulum, wheel, outline_i=pallet, outline_j=tooth, copies=copies)
+        OutlineContact(name, pendulum, wheel, outline_i=pallet, outline_j=tooth, copies=copies, points=2)
         for name, pallet in pallets.items()
     )
     joints = (Revolute("axis", wheel.at(0, 0), GROUND), Revolute("arbor", pendulum.at(0, 0), GROUND.at(*ARBOR)))

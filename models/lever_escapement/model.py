@@ -152,7 +152,7 @@ def _fork(lever: Body, balance: Body) -> tuple[OutlineContact]:
     half = (HORNS, FORK), (NOTCH, FORK), (NOTCH, floor)
     notch = Outline.polygon([(-HORNS, foot), (HORNS, foot), *half, *((-x, y) for x, y in half[::-1])])
     pin = Outline.circle(PIN, (0.0, -CRANK))
-    return (OutlineContact("pin", balance, lever, outline_i=pin, outline_j=notch),)
+    return (OutlineContact("pin", balance, lever, outline_i=pin, outline_j=notch, points=2),)
 
 
 def _banking(values: SimpleNamespace, lever: Body) -> tuple[OutlineContact, ...]:

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Pose
-from ...tables.parts import Contacts, Outlines
+from ...tables.motion import Pose, Strikes
+from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..outlines.features import FAR
+from ..constraints.outline_row import place_feature, turning_of
+from ..outlines.features import AT_A_CORNER, beside, faces_corner, is_corner
 from ..outlines.held import is_one_with
-from ..outlines.nearest import EVERY, FREE, MEETS, look_no_deeper, nearest
+from ..outlines.nearest import FREE, MEETS, OVERLAP, look_no_deeper, nearest
 
 #: Outlines that reach farther into each other than this do not touch, but overlap [m].
 OVERLAPS = 1e-9
@@ -92,9 +93,13 @@ def let_loose(block: Array, contact: int) -> None:
 
 @jit
 def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
-    """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status."""
+    """Bind a contact to every pair of features that touches, and free those that do not but for `struck`; a status.
+
+    Of outlines, one of which takes part in the event (`participation`).
+    """
     keep_apart()
     table = Contacts(block)
+    island = Strikes(block).island
     look_no_deeper(block, 0.0)
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c):
@@ -102,10 +107,17 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
         if c == struck:
             table.touching[c] = 1
             table.apart[table.group[c]] = 0.0
-        elif table.feature_i[c] != codes.NONE and table.mode[c] == codes.OPEN and table.touching[c] == 0:
-            let_loose(block, c)
+        elif table.feature_i[c] != codes.NONE:
+            if table.mode[c] == codes.OPEN and table.touching[c] == 0:
+                let_loose(block, c)
+            elif _has_turned_away(block, at, c):
+                table.mode[c] = codes.OPEN
+                table.touching[c] = 0
+                let_loose(block, c)
     for c in range(table.mode.shape[0]):
         if not is_outline(block, c) or table.group[c] != c or table.value[c, codes.ENABLED] < 0.5:
+            continue
+        if island[table.body_i[c]] == codes.NONE and island[table.body_j[c]] == codes.NONE:
             continue
         if table.apart[c] > TOUCHES_WITHIN and not _is_bound(block, c):
             continue  # as far as its outlines are apart, nothing that has happened concerns it
@@ -113,35 +125,74 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
         while nearest(block, at, c, FREE) <= TOUCHES_WITHIN:
             place = free_place(block, c)
             if place == codes.NONE:
-                return status.MANY_TOUCH
+                return status.FEW_POINTS
             take_found(block, place)
             table.touching[place] = 1
         if free_place(block, c) == codes.NONE:  # the last one is there to tell
-            return status.MANY_TOUCH
+            return status.FEW_POINTS
     return status.OK
+
+
+@jit
+def _has_turned_away(block: Array, at: Pose, contact: int) -> bool:
+    """Whether two corners at one place do not touch by this pair of features any more, as a side has turned past it."""
+    keep_small()
+    table = Contacts(block)
+    i, j = table.body_i[contact], table.body_j[contact]
+    f, g, copy = table.feature_i[contact], table.feature_j[contact], table.copy[contact]
+    one, other = table.outline_i[contact], table.outline_j[contact]
+    if Features(block).kind[f] == codes.VERTEX and Features(block).kind[g] == codes.SEGMENT:
+        return _is_past(block, at, j, other, copy, g, i, one, 0, f)
+    if Features(block).kind[f] == codes.SEGMENT and Features(block).kind[g] == codes.VERTEX:
+        return _is_past(block, at, i, one, 0, f, j, other, copy, g)
+    return False
+
+
+@jit
+def _is_past(
+    block: Array,
+    at: Pose,
+    j: int,
+    outline: int,
+    copy: int,
+    segment: int,
+    i: int,
+    of_corner: int,
+    copy_of_corner: int,
+    corner: int,
+) -> bool:
+    """Whether a corner of body i stands at an end of a segment of body j, and one of its sides lies deeper."""
+    keep_small()
+    bx, by, dx, dy = place_feature(block, at, j, outline, copy, segment)
+    ax, ay, _, _ = place_feature(block, at, i, of_corner, copy_of_corner, corner)
+    along = dx * (at.x[i] + ax - at.x[j] - bx) + dy * (at.y[i] + ay - at.y[j] - by)
+    way = -1
+    if abs(along) >= AT_A_CORNER:
+        along = Features(block).data[segment, codes.FEATURE_LENGTH] - along
+        way = 1
+    end = beside(block, outline, segment, way)
+    if abs(along) >= AT_A_CORNER or end == codes.NONE or not is_corner(block, end):
+        return False
+    c, s = turning_of(block, at, i, of_corner, copy_of_corner)
+    return not faces_corner(block, corner, c * dy - s * dx, -c * dx - s * dy)
 
 
 @jit
 def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
     """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
 
-    A disc of one that is inside the other counts, and none in an open chain, which has no inside; and elements that
-    cross each other.
+    Whatever is bound, held or known to be apart: an independent watch (`outlines.overlap`).
     """
     keep_apart()
     table = Contacts(block)
     found = codes.NONE
     least = -OVERLAPS
-    look_no_deeper(block, FAR)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
-            if table.apart[c] > 0.0 and not _is_bound(block, c):
-                continue
-            gap = nearest(block, at, c, EVERY)
+            gap = nearest(block, at, c, OVERLAP)
             if gap < least:
                 least = gap
                 found = c
-    look_no_deeper(block, 0.0)
     return found, -least
 
 

@@ -5,8 +5,8 @@ derivative of the gap and target 0.
 
 Solved exactly, by principal pivoting: each contact is in (closed, a row like a joint's) or out (open), and as long as
 one of them violates its inequality, the first such contact changes sides (least-index rule, Murty 1974). When that does
-not end, as it may when rows depend on each other, all combinations of the contacts are tried. The same solution
-procedure serves impulses and accelerations; only the two kinds of trial differ.
+not end, as it may when rows depend on each other, all combinations of the contacts of each island are tried. The same
+solution procedure serves impulses and accelerations; only the two kinds of trial differ.
 
 Dry friction is part of the same problem: whatever touches and may slip either way (at zero slip; in an impact always)
 sticks, a row like a joint's within the cone |lambda_T| <= mu lambda_N, or slips, with a friction against the slip that
@@ -20,6 +20,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Rubs, Strikes
 from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from ...tolerances import PILED, PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
@@ -28,8 +29,9 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
 from ..dynamics.sliding import hold
 from ..vectors import largest
+from .participation import island_of
 from .proposal import CONES, SPLIT, propose
-from .trial import COUNT, FORCES, IMPULSES, KIND, SHOCK, excess, slip_change, try_modes
+from .trial import COUNT, FORCES, IMPULSES, ISLAND, KIND, SHOCK, excess, slip_change, try_modes
 
 #: An impulse may be missing this share of the largest one.
 _IMPULSE_SHARE = 1e-11
@@ -90,16 +92,65 @@ def hold_ratio(block: Array, rub: int, tolerance: float) -> float:
 
 @jit
 def _choose(block: Array, at: Pose) -> int:
-    count = Strikes(block).problem[COUNT]
-    if not rubs(block):
-        return status.OK if _pivot(block, at, _MOST_PIVOTS * (1 + count)) else _combine(block, at, count)
-    pivots = _FEW_PIVOTS * (1 + count + Course(block).counters[codes.RUBBING])
-    if _pivot(block, at, pivots):
+    """All candidates at once; where that does not end soon, those of each island by themselves."""
+    problem = Strikes(block).problem
+    count = problem[COUNT]
+    problem[ISLAND] = codes.NONE
+    if _pivot(block, at, _most_pivots(block)):
         return status.OK
-    for form in (CONES, SPLIT):
-        if propose(block, at, form) and _pivot(block, at, pivots):
-            return status.OK
-    return _combine(block, at, count)
+    outcome = status.OK
+    for b in range(Sizes(block).bodies):
+        if Strikes(block).island[b] != b or outcome != status.OK:
+            continue
+        problem[ISLAND] = b
+        problem[COUNT] = _gather_candidates(block, count, b)
+        is_whole = problem[COUNT] == count
+        if (problem[COUNT] > 0 or rubs(block)) and (is_whole or not _pivot(block, at, _most_pivots(block))):
+            outcome = _choose_in_island(block, at)
+    problem[ISLAND] = codes.NONE
+    problem[COUNT] = count
+    return outcome
+
+
+@jit
+def _most_pivots(block: Array) -> int:
+    count: int = Strikes(block).problem[COUNT]
+    if not rubs(block):
+        return _MOST_PIVOTS * (1 + count)
+    with_friction: int = Course(block).counters[codes.RUBBING]
+    return _FEW_PIVOTS * (1 + count + with_friction)
+
+
+@jit
+def _gather_candidates(block: Array, count: int, island: int) -> int:
+    """Bring the candidates of an island to the front; return their number."""
+    keep_small()
+    candidates = Strikes(block).candidates
+    gathered = 0
+    for k in range(count):
+        if island_of(block, candidates[k]) == island:
+            candidates[k], candidates[gathered] = candidates[gathered], candidates[k]
+            gathered += 1
+    return gathered
+
+
+@jit
+def _choose_in_island(block: Array, at: Pose) -> int:
+    """Decide about candidates that pivots do not settle: by proposals of all modes, and by all combinations."""
+    keep_small()
+    if rubs(block):
+        for form in (CONES, SPLIT):
+            if propose(block, at, form) and _pivot(block, at, _most_pivots(block)):
+                return status.OK
+    return _combine(block, at, Strikes(block).problem[COUNT])
+
+
+@jit
+def _is_free_here(block: Array, rub: int) -> bool:
+    """Whether friction may stick or slip either way, in the island that is decided about."""
+    island = Strikes(block).problem[ISLAND]
+    free: bool = Rubs(block).free[rub] == codes.FREE
+    return free and (island == codes.NONE or island_of(block, rub) == island)
 
 
 @jit
@@ -124,39 +175,52 @@ def _pivot(block: Array, at: Pose, most: int) -> bool:
 def _combine(block: Array, at: Pose, count: int) -> int:
     """Try all combinations of modes of the candidates, and of stick and slip where that is free; return a status."""
     keep_apart()
-    mode = Contacts(block).mode
-    candidates = Strikes(block).candidates
-    rub = Rubs(block)
-    combinations = 1
-    for _ in range(count):
-        combinations = min(2 * combinations, _TOO_MANY)
-    for k in range(rub.slip.shape[0]):
-        if _is_open_to_all(block, k):
-            combinations = min(3 * combinations, _TOO_MANY)
+    combinations = combination_count(block, count)
     if combinations == _TOO_MANY:
         return status.MANY_TOUCH
     for combination in range(combinations):
-        rest = combination
-        for k in range(count):
-            mode[candidates[k]] = rest & 1
-            rest >>= 1
-        for k in range(rub.slip.shape[0]):
-            if _is_open_to_all(block, k):
-                rub.slip[k] = codes.STICKS
-                if rest % 3 > 0:
-                    rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
-                rest //= 3
+        combine_modes(block, count, combination)
         if _first_wrong(block, at) == codes.NONE:
             return status.OK
     return status.NO_CHOICE
 
 
 @jit
+def combination_count(block: Array, count: int) -> int:
+    """The number of combinations of modes of the candidates, and of stick and slip where that is free."""
+    keep_small()
+    combinations = 1
+    for _ in range(count):
+        combinations = min(2 * combinations, _TOO_MANY)
+    for k in range(Sizes(block).rubs):
+        if _is_open_to_all(block, k):
+            combinations = min(3 * combinations, _TOO_MANY)
+    return combinations
+
+
+@jit
+def combine_modes(block: Array, count: int, combination: int) -> None:
+    """Set the modes of one of the combinations."""
+    keep_small()
+    rub = Rubs(block)
+    rest = combination
+    for k in range(count):
+        Contacts(block).mode[Strikes(block).candidates[k]] = rest & 1
+        rest >>= 1
+    for k in range(rub.slip.shape[0]):
+        if _is_open_to_all(block, k):
+            rub.slip[k] = codes.STICKS
+            if rest % 3 > 0:
+                rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
+            rest //= 3
+
+
+@jit
 def _is_open_to_all(block: Array, rub: int) -> bool:
     """Whether it may stick or slip either way: at rest, and not of a contact that is no candidate and is open."""
     table = Contacts(block)
-    if Rubs(block).free[rub] != codes.FREE or rub >= table.mode.shape[0]:
-        free: bool = Rubs(block).free[rub] == codes.FREE
+    free = _is_free_here(block, rub)
+    if not free or rub >= table.mode.shape[0]:
         return free
     takes_part: bool = table.mode[rub] == codes.CLOSED or Rubs(block).given[rub] > 0.0
     for k in range(Strikes(block).problem[COUNT]):
@@ -231,7 +295,7 @@ def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
         tolerance = _IMPULSE_SHARE * largest(multiplier, active)
     shock = Strikes(block).problem[KIND] == IMPULSES and Strikes(block).problem[SHOCK] == 1
     for k in range(table.slip.shape[0]):
-        if table.free[k] != codes.FREE or not touches(block, k):
+        if not _is_free_here(block, k) or not touches(block, k):
             continue
         if table.slip[k] == codes.STICKS:
             lacks = tolerance

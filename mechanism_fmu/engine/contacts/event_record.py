@@ -7,7 +7,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, Strikes
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
-from .impact import make_space
+from .impact import next_place
 
 #: Which mode a record calls the old one: that before the event, or before what happens within it, such as a shock.
 EVENT = 0
@@ -45,12 +45,7 @@ def keep_event(block: Array, guard: int, subject: int, which: int, impulse: floa
     keep_small()
     now = Course(block)
     now.counters[codes.COUNT_EVENTS] += 1
-    place = now.counters[codes.EVENTS_IN_STEP]
-    if place == now.events.shape[0]:
-        make_space(now.events, place + 1 - now.events.shape[0])
-        place -= 1
-    else:
-        now.counters[codes.EVENTS_IN_STEP] = place + 1
+    place = next_place(now.counters, codes.EVENTS_IN_STEP, codes.FIRST_EVENT, now.events.shape[0])
     record = now.events[place]
     record[codes.EVENT_TIME] = now.clock[codes.STEP_END]
     record[codes.EVENT_GUARD] = guard

@@ -20,6 +20,7 @@ from ..constraints.wear import wear_by_impact
 from ..dynamics.acceleration import LEAST_DRIFT, mend
 from .guards import gap
 from .impact_laws import exchange
+from .participation import island_of
 from .rubbing import note_sticks, set_noted
 from .trial import ABSENT, COUNT, DECIDED, KEPT
 
@@ -49,12 +50,12 @@ def strike(block: Array, struck: int, round_: int) -> tuple[bool, int]:
     taking_part = Strikes(block)
     rate = Course(block).y_end[n:]
     at = place_bodies(block, Course(block).y_end)
-    if not _cast(block, at, struck, round_ >= _PLASTIC_FROM):
+    if not _cast(block, at, struck, round_):
         return False, status.OK
     if round_ == 0 and rubs(block):
         _mend_rates(block)
         at = place_bodies(block, Course(block).y_end)
-        if not _cast(block, at, struck, False):
+        if not _cast(block, at, struck, round_):
             return False, status.OK
     count = 0
     for c in range(table.mode.shape[0]):
@@ -91,12 +92,16 @@ def _mend_rates(block: Array) -> None:
 
 
 @jit
-def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
-    """Give every contact its role, closing speed and target; whether any of them approaches."""
+def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
+    """Give every contact its role, closing speed and target; whether any of them approaches.
+
+    Where none of an island does, none of it takes part.
+    """
     keep_small()
     table = Contacts(block)
     taking_part = Strikes(block)
-    approached = False
+    plastic = round_ >= _PLASTIC_FROM
+    some = False
     sticks_below = STICK_SPEED
     if Course(block).counters[codes.PILE] >= PILED:
         sticks_below = RESTS_WHERE_PILED
@@ -104,7 +109,8 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
         taking_part.role[c] = ABSENT
         taking_part.closing[c] = 0.0
         taking_part.target[c] = 0.0
-        if table.value[c, codes.ENABLED] < 0.5:
+        island = island_of(block, c)
+        if island == codes.NONE or table.value[c, codes.ENABLED] < 0.5:
             continue
         closed = table.mode[c] == codes.CLOSED
         guided = table.value[c, codes.GUIDED] > 0.5
@@ -117,7 +123,9 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
             if closed:
                 taking_part.role[c] = KEPT
                 taking_part.target[c] = -rate
-                approached = approached or abs(rate) > RESTS_BELOW
+                if abs(rate) > RESTS_BELOW:
+                    taking_part.approached[island] = round_ + 1
+                    some = True
                 if abs(rate) >= STICK_SPEED:  # switched on in motion, from either side; below, drift and rounding
                     taking_part.closing[c] = abs(rate)
             continue
@@ -134,12 +142,17 @@ def _cast(block: Array, at: Pose, struck: int, plastic: bool) -> bool:
             # That keeps the problem solvable (by reversing all rates) and the energy from growing.
             taking_part.target[c] = -2.0 * rate
         if approaches:
-            approached = True
+            taking_part.approached[island] = round_ + 1
+            some = True
             taking_part.closing[c] = -rate
             restitution = table.value[c, codes.RESTITUTION]
             if not plastic and restitution * -rate >= sticks_below:
                 taking_part.target[c] = (1.0 + restitution) * -rate
-    return approached
+    for c in range(table.mode.shape[0]):
+        if taking_part.role[c] == DECIDED and taking_part.approached[island_of(block, c)] != round_ + 1:
+            taking_part.role[c] = ABSENT
+            taking_part.target[c] = 0.0
+    return some
 
 
 @jit
@@ -169,8 +182,7 @@ def _open_what_leaves(block: Array) -> None:
 def _keep_impacts(block: Array) -> None:
     """Record the impacts of all contacts that strike, in their order.
 
-    Of more than the buffer holds, as where hundreds land at once, the first ones are only counted, and space is made
-    for all others together: each on its own would move the whole buffer.
+    Of more than the buffer holds, as where hundreds land at once, the first ones are only counted.
     """
     keep_small()
     now = Course(block)
@@ -182,11 +194,6 @@ def _keep_impacts(block: Array) -> None:
     passed = max(0, strikes - now.impacts.shape[0])
     now.counters[codes.COUNT_IMPACTS] += passed
     now.counters[codes.COUNT_LOST] += passed
-    over = max(0, now.counters[codes.COUNT_IN_STEP] + strikes - passed - now.impacts.shape[0])
-    if over > 0:
-        make_space(now.impacts, over)
-        now.counters[codes.COUNT_IN_STEP] -= over
-        now.counters[codes.COUNT_LOST] += over
     for c in range(taking_part.role.shape[0]):
         if taking_part.role[c] != ABSENT and taking_part.closing[c] > 0.0:
             if passed > 0:
@@ -219,13 +226,9 @@ def keep_impact(block: Array, contact: int) -> None:
     _share(block, record)
 
     now.counters[codes.COUNT_IMPACTS] += 1
-    place = now.counters[codes.COUNT_IN_STEP]
-    if place == now.impacts.shape[0]:
+    if now.counters[codes.COUNT_IN_STEP] == now.impacts.shape[0]:
         now.counters[codes.COUNT_LOST] += 1
-        make_space(now.impacts, place + 1 - now.impacts.shape[0])
-        place -= 1
-    else:
-        now.counters[codes.COUNT_IN_STEP] = place + 1
+    place = next_place(now.counters, codes.COUNT_IN_STEP, codes.FIRST_IMPACT, now.impacts.shape[0])
     for k in range(now.impacts.shape[1]):
         now.impacts[place, k] = record[k]
 
@@ -244,8 +247,9 @@ def complete_impacts(block: Array, made: int, energy: float) -> None:
     now.counters[codes.COUNT_INSTANTS] += 1
     kept: int = now.counters[codes.COUNT_IN_STEP]
     for b in range(max(0, kept - made), kept):
-        _share(block, now.impacts[b])
-        now.impacts[b, codes.RECORD_ENERGY] = energy
+        record = now.impacts[(now.counters[codes.FIRST_IMPACT] + b) % now.impacts.shape[0]]
+        _share(block, record)
+        record[codes.RECORD_ENERGY] = energy
     _share(block, now.last_impact)
     now.last_impact[codes.RECORD_ENERGY] = energy
 
@@ -288,10 +292,12 @@ def clear_records(block: Array) -> None:
     for b in range(now.counters[codes.COUNT_IN_STEP]):
         clear_impact(now.impacts[b])
     now.counters[codes.COUNT_IN_STEP] = 0
+    now.counters[codes.FIRST_IMPACT] = 0
     for b in range(now.counters[codes.EVENTS_IN_STEP]):
         for k in range(now.events.shape[1]):
             now.events[b, k] = 0.0
     now.counters[codes.EVENTS_IN_STEP] = 0
+    now.counters[codes.FIRST_EVENT] = 0
 
 
 @jit
@@ -310,8 +316,15 @@ def _copy(block: Array, contact: int) -> int:
 
 
 @jit
-def make_space(buffer: Array, rows: int) -> None:
-    """Drop the first rows and move the others up."""
-    for b in range(buffer.shape[0] - rows):
-        for k in range(buffer.shape[1]):
-            buffer[b, k] = buffer[b + rows, k]
+def next_place(counters: Array, kept: int, first: int, places: int) -> int:
+    """The place of the next record in a buffer that goes round; where it is full, the oldest record is lost.
+
+    The counters `kept` and `first` say how many records there are, and where the oldest one is.
+    """
+    keep_small()
+    place: int = (counters[first] + counters[kept]) % places
+    if counters[kept] == places:
+        counters[first] = (place + 1) % places
+    else:
+        counters[kept] += 1
+    return place

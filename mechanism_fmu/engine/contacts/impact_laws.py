@@ -20,9 +20,9 @@ from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row, driver_power
-from ..dynamics.forces import kinetic_energy
 from ..vectors import largest
 from .complementarity import push_impulses
+from .participation import participants_energy
 from .routh import along_routh
 from .rubbing import free_all
 from .trial import ABSENT, COUNT, SHOCK
@@ -57,13 +57,13 @@ def exchange(block: Array, at: Pose) -> int:
         if outcome != status.NO_CHOICE:
             return outcome
         return _by_poisson(block)
-    energy = kinetic_energy(Bodies(block).inverse_mass, rate, n)
+    energy = participants_energy(block)
     work = Course(block).y_end[Sizes(block).y_work]
     free_all(block)
     if push_impulses(block, at) != status.OK:  # with e > 0 it may have no answer; Poisson's always has one
         return _by_poisson(block)
     _apply(block)
-    gain = kinetic_energy(Bodies(block).inverse_mass, rate, n) - energy
+    gain = participants_energy(block) - energy
     gain -= Course(block).y_end[Sizes(block).y_work] - work
     if settings[codes.ENERGY_GUARD] > 0.5 and gain > _ROUNDING * energy:
         Course(block).y_end[Sizes(block).y_work] = work

@@ -23,6 +23,7 @@ from ..constraints.rows import active_rows, contact_row, driver_power
 from ..dynamics.acceleration import scale_rows
 from ..dynamics.linear_solve import factorise
 from ..dynamics.sliding import respond
+from .participation import island_of
 
 #: The path of one impact has at most two changes of slip, and the end of compression.
 _PARTS = 6
@@ -75,19 +76,19 @@ def along_routh(block: Array, at: Pose) -> int:
 
 @jit
 def _alone(block: Array) -> int:
-    """The one contact that strikes, where no other friction takes part; else `codes.NONE`."""
+    """The one contact that strikes, where no other friction takes part in the event; else `codes.NONE`."""
     keep_small()
     table = Contacts(block)
     strike = Strikes(block)
     found = codes.NONE
     for c in range(table.mode.shape[0]):
-        if table.mode[c] != codes.CLOSED:
+        if table.mode[c] != codes.CLOSED or island_of(block, c) == codes.NONE:
             continue
         if not strike.closing[c] > 0.0 or found != codes.NONE or not strike.target[c] >= strike.closing[c]:
             return codes.NONE
         found = c
     for k in range(table.mode.shape[0], Sizes(block).rubs):
-        if coefficient(block, k) > 0.0:
+        if coefficient(block, k) > 0.0 and island_of(block, k) != codes.NONE:
             return codes.NONE
     return found
 

@@ -11,6 +11,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
+from .participation import island_of
 
 
 @jit
@@ -30,8 +31,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
 
     At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
     whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
-    has just let go; where it has not stuck before, it does so here. All that has friction is looked at where not
-    `only_touching`.
+    has just let go: then its row may have drifted, too, and the sign of that speed says nothing of where it will slip.
+    Where it has not stuck before, it does so here. What takes no part in the event stays as it is. All that has
+    friction is looked at where not `only_touching`.
     """
     keep_small()
     table = Rubs(block)
@@ -42,7 +44,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
-        if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
+        if island_of(block, k) == codes.NONE:
+            continue
+        if not (touches(block, k) or (coefficient(block, k) > 0.0 and not only_touching)):
             continue
         begins = table.slip[k] != codes.STICKS
         if begins:
@@ -51,7 +55,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if begins:  # also where it slips: an impact may end that
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        if abs(speed) > (slips_above if begins else max(slips_above, STUCK_BELOW)) and k != stopped:
+        drifts = not begins or let_go
+        if abs(speed) > (max(slips_above, STUCK_BELOW) if drifts else slips_above) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE
@@ -70,6 +75,8 @@ def free_all(block: Array) -> None:
     at = place_bodies(block, Course(block).y_end)
     look_at_slip(block, at, False, codes.NONE)
     for k in range(table.slip.shape[0]):
+        if island_of(block, k) == codes.NONE:
+            continue
         if k >= Sizes(block).contacts + Sizes(block).joints:
             table.free[k] = codes.BOUND
             table.slip[k] = codes.APART

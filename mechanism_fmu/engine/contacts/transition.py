@@ -5,26 +5,27 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rubs, Strikes
-from ...tables.parts import Bodies, Contacts, Functions, Options, Patterns
+from ...tables.parts import Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs, slips, sticks, touches
 from ..constraints.kinematics import place_bodies
-from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
-from ..dynamics.forces import kinetic_energy, set_time
+from ..dynamics.forces import set_time
+from ..dynamics.sliding import can_move
 from ..dynamics.thresholds import decide_sides
 from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
-from .doubts import other_choice, undetermined
+from .doubts import record_doubts
 from .event_record import EVENT, WITHIN, has_changed, keep_event, note_mode
 from .guards import can_open, gap, place_contact, place_pattern
 from .handover import hand_over
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, strike
 from .impact_laws import shock
 from .inside import is_one_inside
+from .participation import find_participants, island_of, participants_energy
 from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
 from .trial import COUNT
 
@@ -80,26 +81,19 @@ def transit(block: Array, guard: int, subject: int) -> int:
     keep_small()
     only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
     shocks = guard == codes.GUARD_SHOCK
-    n = Sizes(block).coordinates
     now = Course(block)
-    rate = now.y_end[n:]
-    inverse_mass = Bodies(block).inverse_mass
     note_mode(block, EVENT)
-    energy = kinetic_energy(inverse_mass, rate, n)
-    work = now.y_end[Sizes(block).y_work]
+    find_participants(block, place_bodies(block, now.y_end), guard, subject)
     if guard == codes.GUARD_INPUT:
         note_sticks(block)
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
+    _note_accumulation(block)
+    energy = participants_energy(block)
+    work = now.y_end[Sizes(block).y_work]
     struck = subject if guard == codes.GUARD_GAP else codes.NONE
-    fired = struck
-    stopped = codes.NONE
-    if guard == codes.GUARD_STICK:
-        stopped = subject
-    leaving = subject if guard == codes.GUARD_PUSH else codes.NONE
     impulse = 0.0
-    hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
     settled = only_choose or shocks
     for round_ in range(MOST_ROUNDS):
@@ -110,26 +104,43 @@ def transit(block: Array, guard: int, subject: int) -> int:
             return outcome
         settled = not approached
         if approached:
-            hits += 1
             impulse += _struck_impulse(block)
         struck = codes.NONE
     outcome = status.CHATTERING
     if Sizes(block).thresholds > 0:
         decide_sides(block)
     if settled:
-        outcome = _settle(block, fired, stopped, leaving, only_choose, hits > 0, shocks)
-    lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
+        outcome = _settle(block, guard, subject)
+    lost = energy + (now.y_end[Sizes(block).y_work] - work) - participants_energy(block)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome
     now.ledger[codes.LEDGER_LOST] += lost
-    if not (only_choose or shocks) or (guard == codes.GUARD_INPUT and has_changed(block)):
+    if not (only_choose or shocks) and _is_change(block, guard, subject):
         keep_event(block, guard, subject, EVENT, impulse)
     if guard == codes.GUARD_INPUT:
+        if has_changed(block):
+            keep_event(block, guard, subject, EVENT, impulse)
         _record_slips(block)
     if only_choose:
         return status.OK
     return _progress(block)
+
+
+@jit
+def _is_change(block: Array, guard: int, subject: int) -> bool:
+    """Whether an event has changed what it is about.
+
+    A contact whose force has come to zero may go on to push by its last digit, and let go in another event right
+    behind; and friction at its bound moves nothing while other rows hold the same.
+    """
+    keep_small()
+    if guard == codes.GUARD_PUSH:
+        return has_changed(block)
+    if guard == codes.GUARD_SLIP:
+        derivative(block, Course(block).y_end, Course(block).dy_end)
+        return not slips(block, subject) or can_move(block, subject)
+    return True
 
 
 @jit
@@ -138,7 +149,7 @@ def _record_slips(block: Array) -> None:
     keep_small()
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
-        if rub.stuck[k] == 1 and slips(block, k):
+        if rub.stuck[k] == 1 and slips(block, k) and _is_change(block, codes.GUARD_SLIP, k):
             keep_event(block, codes.GUARD_SLIP, k, EVENT, 0.0)
 
 
@@ -164,9 +175,14 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
     if guard == codes.GUARD_HANDOVER:
         hand_over(block, at, subject)
     if Sizes(block).outlines > 0:
-        outcome = bind_what_touches(block, at, subject if guard == codes.GUARD_GAP else codes.NONE)
-        if outcome != status.OK:
-            return outcome
+        participants = 0
+        joined = find_participants(block, at, guard, subject)
+        while joined > participants:
+            outcome = bind_what_touches(block, at, subject if guard == codes.GUARD_GAP else codes.NONE)
+            if outcome != status.OK:
+                return outcome
+            participants = joined
+            joined = find_participants(block, at, guard, subject)
     if guard == codes.GUARD_NEXT or guard == codes.GUARD_PREVIOUS:
         Patterns(block).copy[subject] += -1 if guard == codes.GUARD_PREVIOUS else 1
         place_pattern(block, at, subject)
@@ -214,26 +230,30 @@ def switch_contacts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _settle(block: Array, fired: int, stopped: int, leaving: int, only_choose: bool, hit: bool, shocks: bool) -> int:
-    """Choose, among the contacts that touch and rest, those that push, and how friction slips.
+def _settle(block: Array, guard: int, subject: int) -> int:
+    """Choose, among the contacts that touch and rest, those that push, and how friction slips; return a status.
 
-    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has, `leaving` the contact whose
-    force has. An impact without approach comes first where the motion `shocks`, because no finite forces agree with it
-    any more.
+    Behind an event of this guard and subject. An impact without approach comes first where no finite forces agree with
+    the motion any more.
     """
     keep_small()
+    only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
+    shocks = guard == codes.GUARD_SHOCK
+    fired = subject if guard == codes.GUARD_GAP else codes.NONE
+    stopped = subject if guard == codes.GUARD_STICK else codes.NONE
     table = Contacts(block)
-    near = GAP_NOISE
-    slow = RESTS_BELOW
-    if hit:
-        near = TOUCHES_WITHIN
-        slow = STICK_SPEED
     at = place_bodies(block, Course(block).y_end)
     count = 0
     for c in range(table.mode.shape[0]):
-        if table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
+        island = island_of(block, c)
+        if island == codes.NONE or table.value[c, codes.ENABLED] < 0.5 or not can_open(block, c):
             continue
         if table.mode[c] == codes.OPEN:
+            near = GAP_NOISE
+            slow = RESTS_BELOW
+            if Strikes(block).approached[island] > 0:
+                near = TOUCHES_WITHIN
+                slow = STICK_SPEED
             distance, rate = gap(block, at, c)
             if (distance > near and c != fired) or not abs(rate) < slow:
                 continue
@@ -255,14 +275,14 @@ def _settle(block: Array, fired: int, stopped: int, leaving: int, only_choose: b
     outcome = status.NO_CHOICE
     if not shocks:
         outcome = push_forces(block, at)
-    if outcome == status.OK and leaving != codes.NONE and table.mode[leaving] == codes.CLOSED:
-        outcome = _let_open(block, at, leaving)
+    if outcome == status.OK and guard == codes.GUARD_PUSH and table.mode[subject] == codes.CLOSED:
+        outcome = _let_open(block, at, subject)
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)
     if outcome == status.NO_CHOICE and shocks:
         outcome = status.JAMMED
     if outcome == status.OK and rubs(block):
-        _record_doubts(block, at)
+        record_doubts(block, at, guard != codes.GUARD_INPUT)
     part(block)
     if rubs(block) and not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
@@ -335,29 +355,28 @@ def _shock(block: Array, count: int) -> int:
 
 
 @jit
-def _record_doubts(block: Array, at: Pose) -> None:
-    """Record that the choice just made is one of several, or does not determine the motion."""
+def _note_accumulation(block: Array) -> None:
+    """Write to PILE how many events without progress in time have concerned what takes part in the present one."""
     keep_small()
-    note_mode(block, WITHIN)
-    what = undetermined(block, row_count(block))
-    if what != codes.NONE:
-        keep_event(block, codes.GUARD_UNDETERMINED, what, WITHIN, 0.0)
-        return
-    what = other_choice(block, at)
-    if what != codes.NONE:
-        keep_event(block, codes.GUARD_SEVERAL, what, WITHIN, 0.0)
+    now = Course(block)
+    now.counters[codes.PILE] = 0
+    for b in range(now.accumulation.shape[0]):
+        if Strikes(block).island[b] != codes.NONE:
+            if now.clock[codes.STEP_END] - now.accumulation[b, 0] > PILE_TIME:
+                now.accumulation[b, 0] = now.clock[codes.STEP_END]
+                now.accumulation[b, 1] = 0.0
+            now.counters[codes.PILE] = max(now.counters[codes.PILE], int(now.accumulation[b, 1]))
 
 
 @jit
 def _progress(block: Array) -> int:
-    """Count events that follow each other without progress in time."""
+    """Count events that follow each other without progress in time, of each body."""
     keep_small()
     now = Course(block)
-    time = now.clock[codes.STEP_END]
-    if time - now.clock[codes.LAST_EVENT] > PILE_TIME:
-        now.clock[codes.LAST_EVENT] = time
-        now.counters[codes.PILE] = 0
     now.counters[codes.PILE] += 1
+    for b in range(now.accumulation.shape[0]):
+        if Strikes(block).island[b] != codes.NONE:
+            now.accumulation[b, 1] += 1.0
     if now.counters[codes.PILE] > MOST_PILED:
         return status.CHATTERING
     return status.OK

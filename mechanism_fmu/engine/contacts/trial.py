@@ -23,11 +23,12 @@ _ACCELERATION = 1e-8
 _SPEED = 1e-11
 _SHARE = 1e-12
 
-# strikes.problem: how many candidates there are, what is decided, and whether without approach. (Not arguments: each
-# literal is compiled anew.)
+# strikes.problem: how many candidates there are, what is decided, whether without approach, and for which island alone
+# (`codes.NONE`: for all). (Not arguments: each literal is compiled anew.)
 COUNT = 0
 KIND = 1
 SHOCK = 2
+ISLAND = 3
 FORCES = 0
 IMPULSES = 1
 

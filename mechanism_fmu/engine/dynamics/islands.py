@@ -25,11 +25,11 @@ def find_islands(block: Array, count: int) -> int:
         system.island_of[b] = codes.NONE
     for r in range(count):
         if body[r, 0] != ground and body[r, 1] != ground:
-            one, other = _leader(system, body[r, 0]), _leader(system, body[r, 1])
+            one, other = leader_of(system, body[r, 0]), leader_of(system, body[r, 1])
             system.leader[max(one, other)] = min(one, other)
     islands = 0
     for r in range(count):
-        leader = _leader(system, _first_body(system, r, ground))
+        leader = leader_of(system, _first_body(system, r, ground))
         if system.island_of[leader] == codes.NONE:
             system.island_of[leader] = islands
             system.island_range[islands, 1] = 0
@@ -44,13 +44,13 @@ def find_islands(block: Array, count: int) -> int:
         system.island_range[island, 1] = begin  # up to where its rows are there
         begin += size
     for r in range(count):
-        island = system.island_of[_leader(system, _first_body(system, r, ground))]
+        island = system.island_of[leader_of(system, _first_body(system, r, ground))]
         spot = system.island_range[island, 1]
         system.island_row[spot] = r
         system.island_spot[r] = spot
         system.island_range[island, 1] += 1
     for b in range(ground):
-        island = system.island_of[_leader(system, b)]
+        island = system.island_of[leader_of(system, b)]
         if island != codes.NONE:
             system.island_column[b] = system.island_width[island]
             system.island_width[island] += 3
@@ -67,7 +67,7 @@ def _first_body(system: LinearSystem, row: int, ground: int) -> int:
 
 
 @jit
-def _leader(system: LinearSystem, body: int) -> int:
+def leader_of(system: LinearSystem, body: int) -> int:
     """The body that stands for all that are joined so far; the way there is halved."""
     keep_small()
     leader = system.leader

@@ -21,7 +21,7 @@ from ..contacts.inside import blame
 from ..dynamics.oscillation import observe
 from ..stepping.step import watch_at
 from ..vectors import copy
-from .indicators import can_happen, evaluate, forget_apart, measure, unseen, what_forbids
+from .indicators import can_happen, evaluate, measure, unseen, what_forbids
 from .thresholds import passed_threshold, write_cubic
 
 #: A dip of the cubic through gaps and rates at two steps counts that is deeper than this part of the gaps there: it is
@@ -81,7 +81,6 @@ def look_through(block: Array) -> int:
                 blame(block, c, -depth)
                 return status.PASSED_OVER
     if Sizes(block).outlines > 0:
-        forget_apart(block, at)
         contact, overlap = deepest_overlap(block, at)
         if contact != codes.NONE and overlap > 2.0 * unseen(block, contact):
             blame(block, contact, -overlap)

@@ -50,7 +50,7 @@ from .thresholds import cross_what_is_due
 
 #: An importer without a root finder may come no deeper than this part of the mechanism's size, or so many rad.
 _DEEPEST_SHARE = 5e-3
-#: So many things in turn at one instant are no motion any more.
+#: So many things in turn at one instant, beside one for each guard, are no motion any more.
 _MOST_HAPPENINGS = 100
 
 
@@ -108,7 +108,7 @@ def _happen_in_turn(block: Array) -> tuple[int, bool]:
     """All that is due, one after the other: a status, and whether there was anything."""
     keep_small()
     some = False
-    for _ in range(_MOST_HAPPENINGS):
+    for _ in range(_MOST_HAPPENINGS + Sizes(block).guards):
         at = evaluate(block)
         number = _first_due(block, at)
         if number == codes.NONE:

@@ -67,12 +67,18 @@ LETS_GO = 2.0
 
 @jit
 def evaluate(block: Array) -> Pose:
-    """Forces and accelerations at y_end and TIME with the present inputs, which may move between events."""
+    """Forces and accelerations at y_end and TIME with the present inputs, which may move between events.
+
+    With gains on the drift of the rows, because an importer integrates them.
+    """
     keep_apart()
     now = Course(block)
     feed(block, Ports(block).inputs)
     set_time(block, now.clock[codes.TIME])
-    return derivative(block, now.y_end, now.dy_end)
+    Exchange(block).integrates[0] = 1
+    at = derivative(block, now.y_end, now.dy_end)
+    Exchange(block).integrates[0] = 0
+    return at
 
 
 @jit
@@ -284,18 +290,6 @@ def measure(block: Array, at: Pose) -> None:
         if is_free(block, g) and can_happen(block, g):
             table.apart[table.group[g]] = 0.0
             table.apart[table.group[g]] = max(guard_value(block, at, g)[0], 0.0)
-
-
-@jit
-def forget_apart(block: Array, at: Pose) -> None:
-    """Of outlines that may have come near each other since they were measured, it is not known that they are apart."""
-    keep_small()
-    table = Contacts(block)
-    for g in range(table.mode.shape[0]):
-        if is_free(block, g) and can_happen(block, g):
-            near = table.apart[table.group[g]] < unseen(block, g) or indicator(block, at, g) <= 0.0
-            if near:
-                table.apart[table.group[g]] = 0.0
 
 
 @jit

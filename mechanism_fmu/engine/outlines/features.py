@@ -273,6 +273,33 @@ def faces_corner(block: Array, corner: int, nx: float, ny: float) -> bool:
 
 
 @jit
+def corners_face(block: Array, corner: int, other: int, c: float, s: float, px: float, py: float) -> bool:
+    """Whether a corner about (px, py) is beyond the ends of all elements beside the other one, and that of its own.
+
+    Else the end of an element is over a corner, by rounding or more, and they touch with the normal of that element.
+    """
+    keep_small()
+    data = Features(block).data[other]
+    dx, dy = px - data[codes.FEATURE_X], py - data[codes.FEATURE_Y]
+    if not _is_beyond(block, other, dx, dy):
+        return False
+    # where a hollow arc begins smoothly, nothing is beside it
+    return not is_corner(block, corner) or _is_beyond(block, corner, -c * dx - s * dy, s * dx - c * dy)
+
+
+@jit
+def _is_beyond(block: Array, corner: int, dx: float, dy: float) -> bool:
+    """Whether a point (dx, dy) from a corner is beyond the ends of the elements there, of which a free end has one."""
+    keep_small()
+    data = Features(block).data[corner]
+    before = data[codes.FEATURE_DX] * dx + data[codes.FEATURE_DY] * dy
+    behind = -(data[codes.FEATURE_LEAVES_X] * dx + data[codes.FEATURE_LEAVES_Y] * dy)
+    least = before + behind if data[codes.FEATURE_TURN] == codes.FREE_END else min(before, behind)
+    is_beyond: bool = least > BEYOND
+    return is_beyond
+
+
+@jit
 def is_over_arc(block: Array, feature: int, dx: float, dy: float) -> bool:
     """Whether a direction from the centre of an arc leads to it, or hardly beyond its ends."""
     keep_small()

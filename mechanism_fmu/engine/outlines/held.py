@@ -7,7 +7,21 @@ from ...tables.declare import Array
 from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import MARGIN
 from ..compiler.subset import jit, keep_apart, keep_small
-from .features import AT_A_CORNER, beside, disc_radius, fits, is_corner, is_hollow_corner, over_seam, radius_of
+from .features import (
+    AT_A_CORNER,
+    beside,
+    disc_radius,
+    faces_corner,
+    fits,
+    is_corner,
+    is_hollow_corner,
+    over_seam,
+    radius_of,
+)
+
+#: What a contact that is bound has to do with a pair of features: nothing; it is bound to it, or to what goes on there;
+#: or to another pair of the same two corners, which may come apart.
+FREE_PAIR, HELD_PAIR, SAME_CORNERS = 0, 1, 2
 
 
 @jit
@@ -21,15 +35,18 @@ def is_held(
     other: int,
     disc: int,
     feature: int,
+    c: float,
+    s: float,
     px: float,
     py: float,
-) -> bool:
+) -> int:
     """Whether a disc about (px, py) touches a feature already, or what it touches goes on there.
 
     Features that follow upon each other, smoothly or around a corner that sticks out, touch the same feature at one
     place at most: where the one hands over to the other. Where an outline goes over into a hollow arc in which the
     other does not fit, there may be two. What comes off hands over no more: what follows there, where something is
-    round or around a corner, may be the next, if that is what is looked for. Two corners at one place touch once.
+    round or around a corner, may be the next, if that is what is looked for. Two corners at one place touch once, as
+    long as that pair of features fits there.
     """
     keep_apart()
     table = Contacts(block)
@@ -52,16 +69,17 @@ def is_held(
                 block, contact, copy, side, disc, feature, k
             )
             if goes_on:
-                return True
+                return HELD_PAIR
             continue
         same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
-        at_one_place = _is_at(block, disc, its, px, py)
+        at_one_place = _is_at(block, disc, its, px, py) and _faces(block, its, own, c, s)
         if not at_one_place and not (fits(block, own, feature) and fits(block, disc, its)):
             continue  # a hollow arc, which something flatter bridges
-        same = same or at_one_place
-        if same and is_one_with(block, one, disc, own) and is_one_with(block, other, feature, its):
-            return True
-    return False
+        if not (same or at_one_place):
+            continue
+        if is_one_with(block, one, disc, own) and is_one_with(block, other, feature, its):
+            return HELD_PAIR if same else SAME_CORNERS
+    return FREE_PAIR
 
 
 @jit
@@ -121,6 +139,17 @@ def _is_at(block: Array, disc: int, held: int, px: float, py: float) -> bool:
     dx: float = features.data[held, codes.FEATURE_X] - px
     dy: float = features.data[held, codes.FEATURE_Y] - py
     return max(abs(dx), abs(dy)) <= AT_A_CORNER
+
+
+@jit
+def _faces(block: Array, corner: int, element: int, c: float, s: float) -> bool:
+    """Whether a corner may touch a segment that ends there; (c, s) turns directions to the corner's frame."""
+    keep_small()
+    if Features(block).kind[element] != codes.SEGMENT:
+        return True
+    data = Features(block).data[element]
+    nx, ny = data[codes.FEATURE_DY], -data[codes.FEATURE_DX]
+    return faces_corner(block, corner, c * nx - s * ny, s * nx + c * ny)
 
 
 @jit

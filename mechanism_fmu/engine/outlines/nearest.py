@@ -22,6 +22,7 @@ from .features import (
     CORNERS_TOUCH,
     FAR,
     apart,
+    corners_face,
     disc_radius,
     faces_corner,
     first_in_row,
@@ -35,7 +36,8 @@ from .features import (
     turning_of_copy,
     wrapped,
 )
-from .held import is_held, is_one_with
+from .held import FREE_PAIR, SAME_CORNERS, is_held, is_one_with
+from .overlap import shared_depth
 
 # What a search counts (`mode`).
 #: As `NEXT`, without the places where an outline goes on smoothly: what it is that comes next.
@@ -47,15 +49,15 @@ NEXT = 0
 FREE = 1
 #: The same, however far.
 EXACT = 2
-#: All, also what touches, and elements that cross each other: for a look whether anything has gone through.
-EVERY = 3
+#: Nothing of this, but how deep one outline lies within the other (`outlines.overlap`), whatever is bound.
+OVERLAP = 3
 
 
 @jit
 def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
     """The least gap of the outlines of a contact [m]; `outlines.found` are the features and the copy, or none.
 
-    Where none was found, the outlines are at least as far from each other; with `EVERY`, 0 where nothing is inside.
+    Where none was found, the outlines are at least as far from each other; with `OVERLAP`, 0 where nothing is inside.
     """
     keep_apart()
     table = Contacts(block)
@@ -83,13 +85,13 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
         distance = math.sqrt(dx * dx + dy * dy)
         if mode <= FREE and distance > 2.0 * reach:
             return float(distance - reach)
-        if mode == EVERY and distance > reach:
+        if mode == OVERLAP and distance > reach:
             return 0.0
-        return float(_of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == EVERY else FAR))
+        return float(_of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == OVERLAP else FAR))
     margin: float = reach
     if mode == EXACT:
         margin = FAR
-    elif mode == EVERY:
+    elif mode == OVERLAP:
         margin = 0.0
     first, last = _copies(block, other, mx, my, reach + margin)
     best: float = margin
@@ -155,10 +157,12 @@ def _of_copy(
     within = best + data[one, codes.OUTLINE_RADIUS] + data[other, codes.OUTLINE_RADIUS]
     if dx * dx + dy * dy > within * within:
         return best
+    if mode == OVERLAP:
+        return min(best, -shared_depth(block, contact, copy, c, s, x, y))
     best = _of_discs(block, contact, mode, copy, 0, one, other, c, s, x, y, best)
     best = _of_discs(block, contact, mode, copy, 1, other, one, c, -s, -c * x - s * y, s * x - c * y, best)
-    if mode == EVERY or (mode == NEXT and Outlines(block).depth[1] > 0.0):
-        across = crossing(block, contact, copy, mode == NEXT, c, s, x, y)
+    if mode == NEXT and Outlines(block).depth[1] > 0.0:
+        across = crossing(block, contact, copy, True, c, s, x, y)
         if across > 0.0:
             best = min(best, -across)
     return best
@@ -207,9 +211,9 @@ def _of_discs(
             best = max(gap, TOUCHES_WITHIN)
             outlines.found[0] = codes.NONE
             outlines.found[1] = codes.NONE
-        if not smooth and found != codes.NONE and gap < best:
+        if not smooth and gap < best:
             best = gap
-            outlines.found[side] = f
+            outlines.found[side] = f if found != codes.NONE else codes.NONE
             outlines.found[1 - side] = found
             outlines.found[2] = copy
     return best
@@ -243,8 +247,6 @@ def _of_disc(
     outlines = Outlines(block)
     features = Features(block)
     deepest = outlines.depth[0]
-    if outlines.closed[other] == 0 and deepest == FAR:
-        deepest = TOUCHES_WITHIN  # an open chain has no inside
     # a hollow corner is where the element behind it begins, which is not what the one before touches
     is_end = features.kind[disc] == codes.VERTEX and is_hollow_corner(block, disc)
     # what is farther away cannot be what is found, nor nearer than what is crossed
@@ -252,55 +254,55 @@ def _of_disc(
     sticks_out = features.kind[disc] == codes.VERTEX and is_corner(block, disc)
     front, crossed, closest = codes.NONE, codes.NONE, codes.NONE
     gap, depth, least = FAR, 0.0, FAR
-    is_cut = False
+    comes_apart = False
     for g in range(outlines.first[other], outlines.first[other] + outlines.count[other]):
         if features.kind[g] == codes.ARC and 0.0 > features.data[g, codes.FEATURE_RADIUS] >= -radius:
             continue  # it does not fit in
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
             distance -= CORNERS_TOUCH
-            if distance < -0.5 * CORNERS_TOUCH:
-                continue  # too near to say which way: a side of one touches the other
+            if not (distance > -0.5 * CORNERS_TOUCH and corners_face(block, disc, g, c, s, px, py)):
+                continue  # a side of one touches the other
         if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):
             continue
-        if (
-            mode < EVERY
-            and not is_end
-            and is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, px, py)
-        ):
-            if abs(distance) < least:  # what is in front of it is not behind the next one
-                least = abs(distance)
+        at_corner = sticks_out and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py)
+        if at_corner and not faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx):
+            if least > AT_A_CORNER:  # what it touches there is nearer, whatever rounding says
+                least = AT_A_CORNER
                 closest = g
             continue
+        if not is_end:
+            bound = is_held(block, contact, mode <= NEXT, copy, side, one, other, disc, g, c, s, px, py)
+            if bound != FREE_PAIR:
+                if abs(distance) < least:  # what is in front of it is not behind the next one
+                    least = abs(distance)
+                    closest = g
+                comes_apart = comes_apart or bound == SAME_CORNERS
+                continue
         faces = True
-        if sticks_out and mode < EVERY and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py):
-            faces = faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx)
         if radius > 0.0:  # the place on the disc, seen from its body
             faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
             if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
                 faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
-        if mode >= EVERY and faces and -radius < distance < depth:  # its centre is in front, and too near
-            crossed = g
-            depth = distance
-            is_cut = True
         if abs(distance) < least:
             least = abs(distance)
             closest = g
-            if distance < 0.0 and faces and not is_cut:
+            if distance < 0.0 and faces:
                 crossed = g
                 depth = distance
         if faces and 0.0 <= distance < gap:
             gap = distance
             front = g
-        if faces and mode < EVERY and distance < 0.0 and g != closest and not is_one_with(block, other, g, closest):
+        if faces and distance < 0.0 and g != closest and not is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
+    if comes_apart and mode == NEXT and crossed == codes.NONE and gap > TOUCHES_WITHIN:
+        return codes.NONE, TOUCHES_WITHIN  # what slides along from there touches at two places
     if crossed == codes.NONE:
         return front, gap
-    behind_another = crossed != closest and not is_cut
-    if behind_another and (mode >= EVERY or is_one_with(block, other, crossed, closest)):
+    if crossed != closest and is_one_with(block, other, crossed, closest):
         return front, gap
     return crossed, depth
 

@@ -19,6 +19,7 @@ from ..constraints.rows import active_rows
 from ..contacts.binding import bind_what_touches, deepest_overlap, is_free
 from ..contacts.guards import gap
 from ..contacts.impact import clear_impact, clear_records
+from ..contacts.participation import find_participants
 from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations
 from ..dynamics.thresholds import clear_sides
@@ -52,6 +53,7 @@ def start(block: Array, time: float) -> int:
         if contact != codes.NONE:
             _blame(block, contact, -depth)
             return status.START_INSIDE
+        find_participants(block, at, codes.GUARD_BEGIN, codes.NONE)
         outcome = bind_what_touches(block, at, codes.NONE)
         if outcome != status.OK:
             return outcome
@@ -67,7 +69,9 @@ def _begin_at_zero(block: Array, time: float) -> None:
     now = Course(block)
     now.clock[codes.TIME] = time
     now.clock[codes.STEP_END] = time
-    now.clock[codes.LAST_EVENT] = time
+    for b in range(now.accumulation.shape[0]):
+        now.accumulation[b, 0] = time
+        now.accumulation[b, 1] = 0.0
     now.clock[codes.STEP_START] = time
     now.clock[codes.STEP_SIZE] = 0.0
     now.clock[codes.PASSED_AT] = time

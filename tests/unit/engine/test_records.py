@@ -114,6 +114,17 @@ def test_a_long_communication_step_keeps_the_newest_events_and_counts_all():
     assert not simulation.field("events")[1:].any()
 
 
+def test_outputs_of_a_full_buffer_are_the_newest_impacts_in_their_order():
+    kept = codes.IMPACT_BUFFER_LENGTH
+    slots = tuple(Output(f"hit{k}", f"impacts[{k + 1}].time", "", "s") for k in range(kept))
+    simulation = Simulation(rotor([Stop(0.5, 1, 1.0), Stop(-0.5, -1, 1.0)], speed=1.0, outputs=slots))
+    simulation.advance(kept + 5.0)
+    times = np.arange(5, kept + 5) + 0.5
+    np.testing.assert_allclose([hit.time for hit in simulation.impacts_in_step()], times, atol=1e-10)
+    np.testing.assert_allclose(list(simulation.read().values()), times, atol=1e-10)
+    assert [hit.time for hit in simulation.impacts_in_step(2)] == pytest.approx(times[-2:])
+
+
 def test_the_communication_steps_do_not_change_the_log():
     mechanism = thrown_up(0.7)
     whole, pieces = Simulation(mechanism), Simulation(mechanism)

@@ -21,6 +21,7 @@ from mechanism_fmu.model import (
     Parameter,
     compile_mechanism,
 )
+from mechanism_fmu.model.symbol import Recorder
 from mechanism_fmu.model.trace import trace
 from mechanism_fmu.simulation import Simulation, SimulationError
 
@@ -128,10 +129,10 @@ def test_what_starts_inside_is_named_with_its_depth() -> None:
 
 def test_more_places_than_points_are_an_error_that_says_so() -> None:
     comb = Outline.polygon([(0.3, 0.1), (-0.3, 0.1), *((x, -0.1 + h) for x, h in TEETH), (0.3, 0.0)])
-    simulation = Simulation(mechanism(outline_i=comb))
-    with pytest.raises(SimulationError, match="More contacts touch at once"):
+    simulation = Simulation(mechanism(outline_i=comb, points=2))
+    with pytest.raises(SimulationError, match="touch at more places at once than their OutlineContact has points"):
         simulation.advance(1.0)
-    simulation = Simulation(replace(mechanism(outline_i=comb, points=3), outputs=(Output("y", "body.y", ""),)))
+    simulation = Simulation(replace(mechanism(outline_i=comb), outputs=(Output("y", "body.y", ""),)))
     simulation.advance(1.0)
     assert simulation.read()["y"] == pytest.approx(0.1, abs=1e-12)
     assert simulation.mode() == ("c", "c_2", "c_3")
@@ -139,3 +140,45 @@ def test_more_places_than_points_are_an_error_that_says_so() -> None:
 
 #: Three teeth of a comb, from left to right: x, and how high above the floor of the comb.
 TEETH = [(-0.3, 0.1), (-0.25, 0.0), (-0.1, 0.1), (0.0, 0.0), (0.1, 0.1), (0.25, 0.0)]
+
+
+COMB = Outline.polygon([(0.3, 0.1), (-0.3, 0.1), *((x, -0.1 + h) for x, h in TEETH), (0.3, 0.0)])
+TRENCH = Outline.chain([(5.0, 0.2), (0.1, 0.2), (0.1, 0.0), (-0.1, 0.0), (-0.1, 0.2), (-5.0, 0.2)])
+NOTCH = Outline.polygon([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 0.0), (-1.0, 1.0)])
+RING = Outline.chain([(0.0, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1), (-0.1, -0.1), (0.0, -0.1)])
+
+#: Outlines, and at how many places they can touch at once.
+PLACES = {
+    "two squares": (SQUARE, SQUARE, None, 2),
+    "a square on a floor": (SQUARE, Outline.chain([(5.0, 0.0), (-5.0, 0.0)]), None, 2),
+    "a square in a trench as wide: both ends of three sides": (SQUARE, TRENCH, None, 6),
+    "a disc in a trench": (Outline.circle(0.1), TRENCH, None, 3),
+    "a square in a notch": (SQUARE, NOTCH, None, 4),
+    "a square under the two ends of a chain": (SQUARE, RING, None, 4),
+    "a disc in a bore": (Outline.circle(0.1), Outline.circle(0.2, hole=True), None, 2),
+    "a square on four teeth": (
+        SQUARE,
+        Outline.chain([(0.1, 0.0), (0.05, 0.1), (0.0, 0.0)]),
+        LinearCopies((0.1, 0.0)),
+        8,
+    ),
+    "a comb on a floor": (COMB, FLOOR, None, 6),
+    "two combs": (COMB, COMB, None, 12),
+}
+
+
+@pytest.mark.parametrize(("one", "other", "copies", "count"), PLACES.values(), ids=PLACES)
+def test_shapes_say_at_how_many_places_they_can_touch(one, other, copies, count) -> None:
+    places = contact(outline_i=one, outline_j=other, copies=copies).places
+    assert len(places) == count + 1  # and one that stands for what comes next
+    bounded = contact(outline_i=one, outline_j=other, copies=copies, points=1).places
+    assert [place.name for place in bounded] == ["c", "c_2"]
+
+
+def test_places_of_symbols_are_those_of_the_values_at_which_parameters_start() -> None:
+    recorder = Recorder()
+    depth = recorder.parameter(0, start=0.5) * 2.0
+    notch = Outline.polygon([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0 - depth), (-1.0, 1.0)])
+    assert len(contact(outline_j=notch).places) == 5
+    shallow = Outline.polygon([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0 + depth), (-1.0, 1.0)])
+    assert len(contact(outline_j=shallow).places) == 3

@@ -134,10 +134,13 @@ static void name_event(int guard, int subject, char *text, size_t size) {
     else snprintf(text, size, "%s.%s", model.contacts[subject].name, of_contact);
 }
 
-static void log_impacts(Instance *x) {
-    size_t columns = SIZE(x, record);
-    for (int64_t k = 0; k < COUNTERS(x)[CODE_COUNT_IN_STEP]; k++) {
-        const double *record = FIELD(x, impacts) + (size_t)k * columns;
+/* The place of the first of the new records of those known: those of the start stay for the first step. */
+static int64_t first_new(int64_t new_ones, int64_t known) { return new_ones < known ? known - new_ones : 0; }
+
+static void log_impacts(Instance *x, int64_t new_impacts) {
+    int64_t first = COUNTERS(x)[CODE_FIRST_IMPACT], known = COUNTERS(x)[CODE_COUNT_IN_STEP]; /* the buffers go round */
+    for (int64_t k = first_new(new_impacts, known); k < known; k++) {
+        const double *record = FIELD(x, impacts) + (size_t)((first + k) % (int64_t)SIZE(x, buffer)) * SIZE(x, record);
         say(x, OK, "logEvents", "Impact on %s at t = %.12g s: closing speed %.6g m/s, impulse %.6g N.s.",
             model.contacts[(int)record[CODE_RECORD_CONTACT]].name, record[CODE_RECORD_TIME],
             record[CODE_RECORD_CLOSING_SPEED], record[CODE_RECORD_IMPULSE]);
@@ -152,8 +155,9 @@ static void log_events(Instance *x, int64_t new_events) {
         say(x, OK, "logEvents",
             "%lld events of the step to t = %.9g s are not listed one by one; the last %lld follow.",
             (long long)(new_events - known), time_of(x), (long long)known);
-    for (int64_t k = 0; k < known; k++) {
-        const double *record = FIELD(x, events) + (size_t)k * SIZE(x, event);
+    int64_t first = COUNTERS(x)[CODE_FIRST_EVENT];
+    for (int64_t k = first_new(new_events, known); k < known; k++) {
+        const double *record = FIELD(x, events) + (size_t)((first + k) % (int64_t)SIZE(x, event_buffer)) * SIZE(x, event);
         double impulse = record[CODE_EVENT_IMPULSE];
         char event[200], old_mode[600], new_mode[600], change[1300] = "";
         name_event((int)record[CODE_EVENT_GUARD], (int)record[CODE_EVENT_SUBJECT], event, sizeof event);
@@ -176,7 +180,8 @@ static void log_passed(Instance *x, int64_t count) {
 
 void log_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
-    if (counters[CODE_COUNT_IMPACTS] != x->logged_impacts) log_impacts(x);
+    if (counters[CODE_COUNT_IMPACTS] != x->logged_impacts)
+        log_impacts(x, counters[CODE_COUNT_IMPACTS] - x->logged_impacts);
     if (counters[CODE_COUNT_EVENTS] != x->logged_events) log_events(x, counters[CODE_COUNT_EVENTS] - x->logged_events);
     if (counters[CODE_COUNT_LOST] != x->logged_lost)
         say(x, WARNING, "logStatusWarning",
@@ -337,7 +342,8 @@ const char *advice_details(Instance *x, int64_t outcome, char *text, size_t size
     if (outcome == STATUS_FORCE_PASSED_OVER)
         snprintf(text, size, " Force element '%s'.", model.elements[((const int64_t *)FIELD(x, stage_stiffest))[0]]);
     if (outcome == STATUS_CHATTERING || outcome == STATUS_NO_CHOICE || outcome == STATUS_JAMMED ||
-        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED)
+        outcome == STATUS_ROW_AWAY || outcome == STATUS_NO_CONTACT_POINT || outcome == STATUS_BRIDGED ||
+        outcome == STATUS_FEW_POINTS)
         involved_contacts(x, text, size);
     if (outcome == STATUS_JAMMED || outcome == STATUS_NO_CHOICE) friction(x, text, size);
     return text;
