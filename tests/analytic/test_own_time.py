@@ -40,7 +40,10 @@ def crank_rocker(speed, gravity, driven=True):
 
 
 def slider_crank(speed, gravity, driven=True):
-    pin, end = (0.1 * math.cos(1.0), 0.1 * math.sin(1.0)), 0.1 * math.cos(1.0) + math.sqrt(0.09 - 0.01 * math.sin(1.0) ** 2)
+    pin, end = (
+        (0.1 * math.cos(1.0), 0.1 * math.sin(1.0)),
+        0.1 * math.cos(1.0) + math.sqrt(0.09 - 0.01 * math.sin(1.0) ** 2),
+    )
     crank = bar("crank", (0, 0), pin, mass=0.2, speed=speed)
     rod = bar("rod", pin, (end, 0), mass=0.3)
     slider = Body("slider", mass=0.5, inertia=1e-3, x=end, y=0.0)

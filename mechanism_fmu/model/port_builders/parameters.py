@@ -240,7 +240,8 @@ def settings_parameters(alpha: float = 0.0, beta: float = 0.0) -> tuple[Paramete
     """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps, method.
 
     Args:
-        alpha, beta: defaults of the gains [1/s], 10 and 1 in Pennestri et al.
+        alpha: default of the gain on the rates [1/s], 10 in Pennestri et al.
+        beta: default of the gain on the rows [1/s], 1 in Pennestri et al.
     """
     return (
         Parameter("baumgarte_alpha", alpha, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
