@@ -28,7 +28,7 @@ _SCALES = {
     "m/s": "of the speed scale",
     "rad/s": "of the rate scale",
 }
-_OF_FORCES = f"{PUSHES_WITHIN:g} of what acts there + {PUSHES_SHARE:g} of the largest, by the masses"
+_OF_FORCES = f"{PUSHES_WITHIN:g} of what acts + {PUSHES_SHARE:g} of the largest, by the masses"
 
 
 def exists(part: Contact | CircularPattern) -> bool:
