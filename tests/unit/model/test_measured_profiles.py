@@ -132,5 +132,4 @@ def test_noise_given_wrongly_is_named():
 
 
 def test_a_table_of_a_motion_is_looked_at_too():
-    smooth = table_motion([(0.01 * k, math.sin(0.01 * k)) for k in range(100)])
-    assert remark_on(smooth) is None
+    assert remark_on(table_motion([(0.01 * k, math.sin(0.01 * k)) for k in range(100)])) is None
