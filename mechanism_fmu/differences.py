@@ -2,8 +2,10 @@
 
 Through impacts a motion is a smooth function of its beginning and of its parameters as long as events keep their order
 (what the saltation matrix says in closed form). Where however little changes the order, there is no derivative: the
-motion grazes. At a limit, as where restitution or friction is 0, the first step must keep the order: with less of it,
-bounces are slower than those that the engine counts, and its motion is flat there.
+motion grazes. That the slopes on both sides agree is looked at always, whatever is known of events: where they do not,
+there is none, and where they hardly do, the derivative is known no better than that. At a limit, as where restitution
+or friction is 0, the first step must keep the order: with less of it, bounces are slower than those that the engine
+counts, and its motion is flat there.
 
 Source: C. J. F. Ridders, Accurate computation of F'(x) and F'(x) F''(x), Advances in Engineering Software 4 (1982).
 """
@@ -20,6 +22,9 @@ Array = npt.NDArray[np.float64]
 
 #: Steps, over the scale of a variable [1]: the first, by how much each is less, how many are extrapolated.
 _FIRST, _LESS, _LEVELS = 4e-3, 2.0, 6
+#: Slopes on both sides differ where they do so by so many times the estimated error of that, by this part of them, and
+#: by what the noise of a motion, this part of a quantity (ten times the usual tolerance), makes of the first step.
+_CERTAIN, _DIFFERENT, _NOISE = 10.0, 1e-5, 1e-8
 #: Where events change, steps become less down to this, over the scale [1].
 _LEAST = 1e-7
 
@@ -103,6 +108,31 @@ def _moved(x: Array, place: int, value: float) -> Array:
     return moved
 
 
+class _Table:
+    """Richardson's table of a quotient whose error has the powers `first`, `first + apart` ... of the step."""
+
+    def __init__(self, size: int, first: int, apart: int) -> None:
+        self.rows: list[list[Array]] = []
+        self.first, self.apart = first, apart
+        self.best, self.error = np.full(size, np.nan), np.full(size, np.inf)
+
+    def add(self, quotient: Array) -> None:
+        """Fill the last row, and keep of each component the entry that is known best."""
+        row = [quotient]
+        self.rows.append(row)
+        if len(self.rows) == 1:
+            self.best, self.error = quotient, np.where(np.isnan(quotient), np.inf, np.abs(quotient))
+            return
+        if len(self.rows) == 2:
+            self.error = np.full_like(self.best, np.inf)
+        for j, above in enumerate(self.rows[-2]):
+            power = _LESS ** (self.first + j * self.apart)
+            row.append((power * row[j] - above) / (power - 1.0))
+            new = np.maximum(np.abs(row[-1] - row[j]), np.abs(row[-1] - above))
+            better = new <= self.error
+            self.best, self.error = np.where(better, row[-1], self.best), np.where(better, new, self.error)
+
+
 class _Column:
     """The derivative by one variable, while steps become less; it may go `down` and `up` by so much [its unit]."""
 
@@ -115,30 +145,53 @@ class _Column:
             self.sides = (1.0,) if up >= down else (-1.0,)
             step = min(step, max(up, down))
         self.step = step
-        self.rows: list[list[Array]] = []
         self.change = ""
         self._forget()
 
     def _forget(self) -> None:
-        self.rows.clear()
-        self.best, self.error = np.full_like(self.middle, np.nan), np.full_like(self.middle, np.inf)
+        both = len(self.sides) == 2
+        self.slope = _Table(len(self.middle), 2 if both else 1, 2 if both else 1)
+        self.jump = _Table(len(self.middle), 1, 2)  # of the slope, from below to above
+
+    @property
+    def best(self) -> Array:
+        none = np.full_like(self.middle, np.nan)
+        return none if self.why_none else self.slope.best
 
     @property
     def known_within(self) -> Array:
-        if not self.rows:
-            return self.error
-        largest = self.step * _LESS ** len(self.rows)
-        rounding = np.where(self.best == 0.0, 0.0, np.finfo(np.float64).eps * np.abs(self.middle) / largest)
-        return np.maximum(self.error, rounding)
+        if self.why_none:
+            return np.full_like(self.middle, np.inf)
+        rounding = np.finfo(np.float64).eps * np.abs(self.middle) / self._largest_step
+        error: Array = np.maximum(self.slope.error, np.where(self.slope.best == 0.0, 0.0, rounding))
+        if self.jump.rows:
+            error = np.maximum(error, 0.5 * np.abs(self.jump.best))
+        return error
+
+    @property
+    def _largest_step(self) -> float:
+        return self.step * _LESS ** len(self.slope.rows)
+
+    @property
+    def _kink(self) -> str:
+        """In words, the slopes on both sides where they differ; "" where they do not."""
+        if len(self.jump.rows) < 2:
+            return ""
+        below, above = self.slope.best - 0.5 * self.jump.best, self.slope.best + 0.5 * self.jump.best
+        least = np.maximum(_CERTAIN * self.jump.error, _DIFFERENT * np.maximum(np.abs(below), np.abs(above)))
+        least = np.maximum(least, _NOISE * np.abs(self.middle) / self._largest_step)
+        for k in np.flatnonzero(np.abs(self.jump.best) > least):
+            return f"none that is known, but the slope is {below[k]:.6g} below and {above[k]:.6g} above"
+        return ""
 
     def goes_on(self, levels: int, least: float) -> bool:
         """Whether there is to be another row, of so many, with a step over the scale that is more than the least."""
         given_up = self.at_limit and bool(self.change)
-        return not given_up and len(self.rows) < levels and self.step > least * self.scale
+        return not given_up and len(self.slope.rows) < levels and self.step > least * self.scale
 
     @property
     def why_none(self) -> str:
-        return "" if self.rows else self.change or "its limits leave no room for a step"
+        return self._kink if self.slope.rows else self.change or "its limits leave no room for a step"
 
     def ends(self) -> list[float]:
         return [self.x + side * self.step for side in self.sides]
@@ -151,23 +204,8 @@ class _Column:
             self.change = self.change or "beside it there is no value"
             self._forget()
         elif len(ends) == 2:
-            self._extrapolate((ends[0] - ends[1]) / (2.0 * self.step), _LESS * _LESS)
+            self.slope.add((ends[0] - ends[1]) / (2.0 * self.step))
+            self.jump.add((ends[0] - 2.0 * self.middle + ends[1]) / self.step)
         else:
-            self._extrapolate(self.sides[0] * (ends[0] - self.middle) / self.step, _LESS)
+            self.slope.add(self.sides[0] * (ends[0] - self.middle) / self.step)
         self.step /= _LESS
-
-    def _extrapolate(self, quotient: Array, factor: float) -> None:
-        """The last row filled, and of each component the entry that is known best."""
-        row = [quotient]
-        self.rows.append(row)
-        if len(self.rows) == 1:
-            self.best, self.error = quotient, np.where(np.isnan(quotient), np.inf, np.abs(quotient))
-            return
-        if len(self.rows) == 2:
-            self.error = np.full_like(self.middle, np.inf)
-        for j, above in enumerate(self.rows[-2]):
-            power = factor ** (j + 1)
-            row.append((power * row[j] - above) / (power - 1.0))
-            new = np.maximum(np.abs(row[-1] - row[j]), np.abs(row[-1] - above))
-            better = new <= self.error
-            self.best, self.error = np.where(better, row[-1], self.best), np.where(better, new, self.error)

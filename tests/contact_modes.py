@@ -14,9 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
+from mechanism_fmu import codes
+from mechanism_fmu.model import Mechanism
+from mechanism_fmu.simulation import Simulation
+
 Numbers = NDArray[np.float64]
 
 OPEN, CLOSED, STICKS, FORWARDS, BACKWARDS = range(5)
+#: Turns a direction by a quarter to the left.
+QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
 
 
 class ContactProblem(NamedTuple):
@@ -109,3 +115,64 @@ def solution_modes(problem: ContactProblem, slack: float = 1e-9) -> tuple[int, .
         return None
 
     return search(())
+
+
+def problem_at(simulation: Simulation, mechanism: Mechanism) -> ContactProblem:
+    """Return the problem of forces at the instant at which a motion of outlines of straight sides has been refused.
+
+    Which contacts there are is what the engine has found; normals, slips, accelerations and directions are calculated
+    here, from the poses and rates of the bodies. Free bodies only, with a corner against a side each.
+    """
+    bodies = mechanism.bodies
+    gravity = np.array(mechanism.gravity or (0.0, 0.0))
+    count, size = simulation.field("problem")[0], 3 * len(bodies)
+    state = simulation.field("y_end")
+    kind, data = simulation.field("feature_kind"), simulation.field("feature_data")
+    table = {
+        name: simulation.field(f"contact_{name}") for name in ("body_i", "body_j", "feature_i", "feature_j", "value")
+    }
+    found = []
+    for contact in simulation.field("candidates")[:count]:
+        ends = [(table["body_i"][contact], table["feature_i"][contact])]
+        ends.append((table["body_j"][contact], table["feature_j"][contact]))
+        if kind[ends[0][1]] != codes.VERTEX:
+            ends.reverse()
+        (corner_body, corner), (side_body, side) = ends
+        assert kind[corner] == codes.VERTEX, "a corner"
+        assert kind[side] == codes.SEGMENT, "against a side"
+        rows = np.zeros((2, size))
+        d, d_rate, d_acceleration = np.zeros(2), np.zeros(2), np.zeros(2)
+        turn, spin = np.eye(2), 0.0
+        for sign, body, feature in ((1.0, corner_body, corner), (-1.0, side_body, side)):
+            place = data[feature, :2]
+            if body * 3 < size:
+                x, y, angle = state[3 * body : 3 * body + 3]
+                u, v, w = state[size + 3 * body : size + 3 * body + 3]
+                turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+                arm, spin = turn @ place, w
+                d += sign * (np.array([x, y]) + arm)
+                d_rate += sign * (np.array([u, v]) + w * QUARTER @ arm)
+                d_acceleration += sign * (gravity - w * w * arm)
+            else:
+                turn, spin = np.eye(2), 0.0
+                d += sign * place
+        along = turn @ data[side, 2:4]
+        gap, slip = [], []
+        for axis, direction in enumerate((-QUARTER @ along, along)):
+            turning = spin * QUARTER @ direction
+            value = direction @ d_acceleration + 2.0 * turning @ d_rate - spin * spin * direction @ d
+            (gap, slip)[axis].append(value)
+            for sign, body, feature in ((1.0, corner_body, corner), (-1.0, side_body, side)):
+                if body * 3 < size:
+                    angle = state[3 * body + 2]
+                    own = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+                    rows[axis, 3 * body : 3 * body + 2] = sign * direction
+                    rows[axis, 3 * body + 2] = sign * direction @ QUARTER @ own @ data[feature, :2]
+                    if sign < 0.0:
+                        rows[axis, 3 * body + 2] += QUARTER @ direction @ d
+        speed = along @ d_rate + spin * QUARTER @ along @ d
+        known = 0.0 if abs(speed) < 1e-9 else float(np.sign(speed))
+        found.append((rows[0], rows[1], gap[0], slip[0], table["value"][contact, codes.FRICTION], known))
+    inverse = np.array([value for b in bodies for value in (1 / b.mass, 1 / b.mass, 1 / b.inertia)])
+    normal, tangent, gaps, slips, friction, known_slips = (np.array(column) for column in zip(*found, strict=True))
+    return ContactProblem(normal, tangent, inverse, gaps, slips, friction, known_slips)

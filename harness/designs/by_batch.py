@@ -25,6 +25,8 @@ NAME = "batch"
 TOGETHER = 256
 #: Impacts of a design that are kept; one with more goes through the FMU.
 _MOST_IMPACTS = 512
+#: Events of a design that are kept, where they are asked for.
+_MOST_EVENTS = 512
 
 
 def require_batch(path: Path) -> None:
@@ -65,6 +67,7 @@ def _found(fmu: Fmu, task: Task, designs: Sequence[Design], threads: int | None)
         ],
         signals={variable.name: [float(values[variable.name]) for values in at_steps] for variable in driven},
         impacts=_MOST_IMPACTS if any(quantity.when.of_impacts for quantity in task.quantities) else 0,
+        events=_MOST_EVENTS if task.events else 0,
         extremes=any(quantity.when in (When.MAX, When.MIN) for quantity in task.quantities),
         threads=threads,
     )
@@ -115,7 +118,8 @@ def _result(
         else _value(fmu.description, task, design, quantity, found, place)
         for quantity in task.quantities
     )
-    return Result(design.number, NAME, values, None, found.warnings[place] or None)
+    events = found.events[place] if task.events else None
+    return Result(design.number, NAME, values, None, found.warnings[place] or None, events)
 
 
 def _value(

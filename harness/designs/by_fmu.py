@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -23,6 +24,8 @@ from .task import Design, Quantity, Result, Task, When, columns_of, of_impacts, 
 # The way of a design through the FMU, by its FMI calls.
 
 NAME = "fmu"
+#: A line of the log in which FMUs of mechanisms name an event.
+_EVENT = re.compile(r"Event (.+?) at t = ")
 
 
 def run_designs(fmu: Fmu, task: Task, designs: Sequence[Design]) -> list[Result]:
@@ -41,6 +44,7 @@ def _run(fmu: Fmu, task: Task, design: Design) -> Result:
         with fmu.instantiate(fmu.description.model, discard_message) as slave:
             values = {**task.fixed, **design.values}
             outcome = run_fixed_step(slave, task.grid, values, [reader], task.inputs, collectors=[impacts])
+            events = tuple(line[1] for message in slave.messages if (line := _EVENT.match(message.text)))
             said = [message.text.strip() for message in slave.messages if message.needs_attention]
         if outcome.error is not None:
             return Result.failed(design, NAME, task, str(outcome.error))
@@ -50,7 +54,8 @@ def _run(fmu: Fmu, task: Task, design: Design) -> Result:
     except Exception as error:  # whatever a design does, the others are to run
         return Result.failed(design, NAME, task, f"{type(error).__name__}: {error}")
     found = tuple(kept[quantity.column] for quantity in task.quantities)
-    return Result(design.number, NAME, found, None, "\n".join(dict.fromkeys(said)) or None)
+    warnings = "\n".join(dict.fromkeys(said)) or None
+    return Result(design.number, NAME, found, None, warnings, events if task.events else None)
 
 
 class _Reader:

@@ -175,10 +175,19 @@ def _missing(result: Result, recorded: Sequence[Quantity], places: Sequence[int]
     return ""
 
 
+def _other_event(here: Sequence[str], beside: Sequence[str]) -> str:
+    """The first event that is another, in words."""
+    place = next((k for k, (a, b) in enumerate(zip(here, beside, strict=False)) if a != b), min(len(here), len(beside)))
+    one, other = (events[place] if place < len(events) else "the end" for events in (here, beside))
+    return f"{one} comes next, but beside it {other}"
+
+
 def _change(here: Result, beside: Result, recorded: Sequence[Quantity], places: Sequence[int]) -> str:
     """In which count, switch or contact a design beside differs, or what it has not, in words; "" if in nothing."""
     if beside.failure is not None:
         return f"on one side it fails: {beside.failure}"
+    if here.events is not None and beside.events is not None and here.events != beside.events:
+        return _other_event(here.events, beside.events)
     for one, value, other in zip(recorded, here.values, beside.values, strict=True):
         if one.type != "Real" and value != other:
             return f"{one.column} is {value}, but beside it {other}"

@@ -94,6 +94,7 @@ class Task:
         inputs: signals that drive inputs; None leaves them at their start values.
         quantities: what is kept.
         material: of the beam that impacts strike.
+        events: whether results name the events.
     """
 
     grid: TimeGrid
@@ -101,6 +102,7 @@ class Task:
     inputs: InputSignals | None
     quantities: tuple[Quantity, ...]
     material: MaterialCard = STEEL_CARD
+    events: bool = False
 
 
 @dataclass(frozen=True)
@@ -126,6 +128,7 @@ class Result:
         values: of the task's quantities, in their order; None where there is none (no impact), or the design failed.
         failure: why it failed; None when it did not.
         warnings: what the FMU said besides; None when it said nothing.
+        events: names of the events in their order, where the task asks for them and the FMU names them; else None.
     """
 
     number: int
@@ -133,6 +136,7 @@ class Result:
     values: tuple[Value | None, ...]
     failure: str | None = None
     warnings: str | None = None
+    events: tuple[str, ...] | None = None
 
     @classmethod
     def failed(cls, design: Design, way: str, task: Task, why: str) -> Result:

@@ -300,9 +300,18 @@ def _serve(end: socket.socket, work: Work) -> None:
     try:
         while asked := wire.receive()[0]:
             pairs = work.run([Design(number, values) for number, values in asked])
-            wire.send([[r.number, [_plain(value) for value in r.values], r.failure, r.warnings] for _, r in pairs])
+            wire.send(
+                [
+                    [r.number, [_plain(value) for value in r.values], r.failure, r.warnings, _plain_events(r)]
+                    for _, r in pairs
+                ]
+            )
     except (EOFError, ConnectionError):  # the other process is gone
         leader.join()
+
+
+def _plain_events(result: Result) -> list[str] | None:
+    return None if result.events is None else list(result.events)
 
 
 def read_results(data: Any, designs: Sequence[Design], task: Task, way: str) -> list[Result]:
@@ -317,9 +326,9 @@ def read_results(data: Any, designs: Sequence[Design], task: Task, way: str) -> 
 
 
 def _result(data: Any, design: Design, task: Task, way: str) -> Result:
-    if type(data) is not list or len(data) != 4:
-        raise BrokenFrameError("one of its results has not four parts")
-    number, values, failure, warnings = data
+    if type(data) is not list or len(data) != 5:
+        raise BrokenFrameError("one of its results has not five parts")
+    number, values, failure, warnings, events = data
     if type(number) is not int or number != design.number:
         raise BrokenFrameError("a result in it is of another design")
     if type(values) is not list or len(values) != len(task.quantities):
@@ -330,7 +339,9 @@ def _result(data: Any, design: Design, task: Task, way: str) -> Result:
     for text in (failure, warnings):
         if text is not None and type(text) is not str:
             raise BrokenFrameError("a result in it has a reason that is no text")
-    return Result(number, way, tuple(values), failure, warnings)
+    if events is not None and (type(events) is not list or any(type(name) is not str for name in events)):
+        raise BrokenFrameError("a result in it has events that are no names")
+    return Result(number, way, tuple(values), failure, warnings, None if events is None else tuple(events))
 
 
 def _plain(value: Any) -> Any:

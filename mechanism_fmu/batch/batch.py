@@ -12,10 +12,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import codes
 from ..engine.run import load
 from ..fmu.instance.news import pulls
 from ..fmu.native.objects import Report, library_here, silently
-from ..model import MechanismError, Model
+from ..model import Mechanism, MechanismError, Model
+from ..model.event_names import event_name
 from ..processors import processors
 from .job import Job
 from .numbers import Array, BatchResult, Numbers
@@ -102,6 +104,7 @@ class Batch:
         impacts: int = 1,
         extremes: bool = False,
         until_impact: bool = False,
+        events: int = 0,
         threads: int | None = None,
         progress: Progress = no_callback,
     ) -> BatchResult:
@@ -120,6 +123,7 @@ class Batch:
             extremes: whether to keep the least and greatest values that the outputs have at the start, at communication
                 points and at the end.
             until_impact: whether to stop each design right after its first impact.
+            events: how many events of each design are kept, from the first.
             threads: how many; None: as many as this process may use (`mechanism_fmu.processors`).
             progress: called a few times a second with how many designs are done, and of how many.
 
@@ -141,6 +145,7 @@ class Batch:
             kept=impacts,
             extremes=extremes,
             until_impact=until_impact,
+            events=events,
         )
         threads = max(1, min(threads or processors(), count))
         failures: Refusals = {}
@@ -168,6 +173,7 @@ class Batch:
             impact_count=job.impact_count,
             impacts={name: job.impacts[:, :, k] for k, name in enumerate(ready.impact_fields)},
             reached=job.reached,
+            events=tuple(_events(ready.mechanism, job, k) for k in range(count)),
             pulled={name: job.pulled[:, c] for c, name in enumerate(contacts)},
             failures=tuple(failures.get(design, "") for design in range(count)),
             warnings=tuple(_warned(warnings.get(k, ""), contacts, job.pulled[k]) for k in range(count)),
@@ -214,6 +220,23 @@ class Batch:
             refused,
             said_of(ready.traced.warnings, numbers, count, between="\n"),
         )
+
+
+def _events(mechanism: Mechanism, job: Job, design: int) -> tuple[str, ...]:
+    """Names of the events of a design, behind how its motion begins."""
+    count = min(job.event_count.item(design), job.events.shape[1])
+    return tuple(_event(mechanism, guard, subject) for guard, subject in job.events[design, :count].tolist())
+
+
+def _event(mechanism: Mechanism, guard: int, subject: int) -> str:
+    if guard == codes.GUARD_NONE:
+        return "one of many at one instant"
+    if guard != codes.GUARD_BEGIN:
+        return event_name(mechanism, guard, subject)
+    contacts = len(mechanism.contacts)
+    if subject < contacts:
+        return f"{mechanism.contacts[subject].name} is closed at the start"
+    return f"{mechanism.rubbing[subject - contacts].name} sticks at the start"
 
 
 def _warned(text: str, contacts: Sequence[str], times: Array) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .. import codes
 from ..tables.layout import scratch_begins
 from ..tables.sizes import sizes_of
 from .numbers import Array
@@ -36,6 +37,9 @@ class Job:
         impact_count: shape (designs,).
         status: shape (designs,); those that are not `status.OK` are left out.
         next: number of the design that is taken next, shape (1,).
+        events: guard and subject of the first events of each design, shape (designs, kept, 2); before them, as events
+            `codes.GUARD_BEGIN`, how the motion begins: closed contacts, and behind their numbers what sticks.
+        event_count: shape (designs,).
     """
 
     words: int
@@ -57,6 +61,8 @@ class Job:
     impact_count: Array
     status: Array
     next: Array
+    events: Array
+    event_count: Array
 
     @classmethod
     def blank(
@@ -71,6 +77,7 @@ class Job:
         kept: int,
         extremes: bool,
         until_impact: bool,
+        events: int = 0,
     ) -> Job:
         """A job without answers, whose designs do not differ yet.
 
@@ -78,6 +85,7 @@ class Job:
             given: a block before its first call, shape (words,).
             times: start, and ends of the steps [s].
             until_impact: as of the class.
+            events: how many of each design are kept.
             drivers: values of inputs for each communication step, by the input's word.
             outputs: as `read_output`.
             fields: as `impact_field`.
@@ -106,6 +114,8 @@ class Job:
             impact_count=np.zeros(designs, np.int64),
             status=np.zeros(designs, np.int64),
             next=np.zeros(1, np.int64),
+            events=np.full((designs, events, 2), codes.NONE, np.int64),
+            event_count=np.zeros(designs, np.int64),
         )
 
     def part(self, designs: slice) -> Job:
@@ -123,7 +133,7 @@ class Job:
 _FOUND = ("values", "least", "greatest", "impacts", "reached", "pulled", "impact_count", "status")
 
 #: Arrays with a row for each design.
-_OF_DESIGNS = ("varied_value", *_FOUND)
+_OF_DESIGNS = ("varied_value", *_FOUND, "events", "event_count")
 
 
 #: The order of the C structure: sizes, then addresses.
@@ -138,6 +148,8 @@ _ARRAYS = (
     "impact_field",
     *_FOUND,
     "next",
+    "events",
+    "event_count",
 )
 _SIZES = ("words", "given_words", "designs", "varied", "points", "driven", "read", "fields", "kept", "until_impact")
 
@@ -148,6 +160,7 @@ class CJob(ctypes.Structure):
     _fields_ = (
         *((name, ctypes.c_int64) for name in _SIZES),
         *((name, ctypes.c_void_p) for name in _ARRAYS),
+        ("kept_events", ctypes.c_int64),
     )
 
 
@@ -167,4 +180,5 @@ def as_c(job: Job) -> CJob:
     )
     for name in _ARRAYS:
         assert getattr(job, name).flags.c_contiguous, name
-    return CJob(*sizes, *(getattr(job, name).ctypes.data if getattr(job, name).size else None for name in _ARRAYS))
+    arrays = (getattr(job, name).ctypes.data if getattr(job, name).size else None for name in _ARRAYS)
+    return CJob(*sizes, *arrays, job.events.shape[1])

@@ -97,6 +97,8 @@ class BatchResult:
         impacts: the first impacts of each design, by field as in the FMU's `impacts[k].<field>`, shape (designs, kept);
             NaN where there were fewer.
         reached: time reached [s]; of a failed design the last good instant, NaN if it did not start.
+        events: of each design, the names of its first events in their order, as many as were asked for, behind what is
+            closed and what sticks at the start.
         pulled: of each contact, by name, the first time [s] at which it pulled where a real one would open, as a guided
             one may; infinite: never.
         failures: why a design failed, in the FMU's words; "" of those that did not.
@@ -114,6 +116,7 @@ class BatchResult:
     impact_count: Array
     impacts: Mapping[str, Array]
     reached: Array
+    events: tuple[tuple[str, ...], ...]
     pulled: Mapping[str, Array]
     failures: tuple[str, ...]
     warnings: tuple[str, ...]

@@ -36,6 +36,8 @@ class OneByOne:
         self._simulation = MovingMechanism.over(mechanism, self._block, library)
         self._records = self._simulation.field("impacts")
         self._pull_time = self._simulation.field("pull_time")
+        self._rule = codes.STOP_AT_IMPACT + (codes.STOP_AT_EVENT if job.events.shape[1] else 0)
+        self._seen = 0
 
     def run(self, design: int) -> None:
         """Take one design as far as it goes.
@@ -44,12 +46,16 @@ class OneByOne:
             MechanismError, SimulationError: it fails; what it did before is in the job.
         """
         job, simulation = self._job, self._simulation
-        job.impact_count[design] = 0
+        job.impact_count[design] = job.event_count[design] = 0
+        self._seen = 0
         self._block[: len(self._job.given)] = self._job.given
         self._block[job.varied_word] = job.varied_value[design]
         self._drive(0)
         simulation.begin(float(job.times[0]))
         job.reached[design] = simulation.time
+        if job.events.shape[1]:
+            self._keep_beginning(design)
+            self._keep_events(design)
         self._look(design)
         for point, target in enumerate(job.times[1:].tolist()):
             self._drive(point)
@@ -71,8 +77,10 @@ class OneByOne:
 
     def _step(self, design: int, target: float) -> None:
         while True:
-            self._simulation.go_on(target, codes.STOP_AT_IMPACT)
+            self._simulation.go_on(target, self._rule)
             self._keep_impacts(design)
+            if self._job.events.shape[1]:
+                self._keep_events(design)
             if self._simulation.time >= target or (self._job.until_impact and self._job.impact_count[design]):
                 return
 
@@ -85,6 +93,30 @@ class OneByOne:
                 place = (counters.item(codes.FIRST_IMPACT) + place) % len(self._records)  # the buffer goes round
                 job.impacts[design, k] = self._records[place, job.impact_field]
         job.impact_count[design] = count
+
+    def _keep_event(self, design: int, guard: float, subject: float) -> None:
+        place = self._job.event_count.item(design)
+        if place < self._job.events.shape[1]:
+            self._job.events[design, place] = guard, subject
+        self._job.event_count[design] += 1
+
+    def _keep_beginning(self, design: int) -> None:
+        mode, slip = (self._simulation.field(name).tolist() for name in ("contact_mode", "rub_slip"))
+        for c, closed in enumerate(mode):
+            if closed == codes.CLOSED:
+                self._keep_event(design, codes.GUARD_BEGIN, c)
+        for k, how in enumerate(slip):
+            if how == codes.STICKS:
+                self._keep_event(design, codes.GUARD_BEGIN, len(mode) + k)
+
+    def _keep_events(self, design: int) -> None:
+        counters, records = self._simulation.counters, self._simulation.field("events")
+        count, held = counters.item(codes.COUNT_EVENTS), counters.item(codes.EVENTS_IN_STEP)
+        for k in range(self._seen, count):
+            place = held - (count - k)
+            which = records[place, [codes.EVENT_GUARD, codes.EVENT_SUBJECT]] if place >= 0 else [codes.NONE] * 2
+            self._keep_event(design, *which)
+        self._seen = count
 
     def _look(self, design: int) -> None:
         job = self._job

@@ -43,7 +43,7 @@ def slopes(problem: Problem, cycle: Map, x: Array, sequence: tuple[str, ...], le
     def sample(points: Sequence[Array]) -> list[Sample]:
         return [Sample(*_end(cycle, point, sequence)) for point in points]
 
-    found = differences.slopes(sample, x, x, problem.scales(x), least=max(least, _LEAST))
+    found = differences.slopes(sample, cycle(x)[0], x, problem.scales(x), least=max(least, _LEAST))
     for unknown, value, change, within in zip(problem.unknowns, x, found.changes, found.within, strict=True):
         if change:
             raise GrazingError(

@@ -18,6 +18,7 @@ from mechanism_fmu.model import MechanismError
 from mechanism_fmu.moving import SimulationError
 from mechanism_fmu.simulation import Simulation
 from tests.analytic.lattice_worlds import LatticeWorld, lattice_world
+from tests.contact_modes import problem_at, solution_modes
 from tests.separating_axes import Placed, depths
 
 #: Deepest overlap that is none: what the engine itself allows [m].
@@ -50,6 +51,7 @@ class Result:
 def run(world: LatticeWorld) -> Result:
     """Run a world and measure it at each communication point."""
     rows, message, reached = [], "", 0.0
+    simulation = None
     try:
         simulation = Simulation(world.mechanism)
         rows.append(simulation.read())
@@ -59,7 +61,7 @@ def run(world: LatticeWorld) -> Result:
             rows.append(simulation.read())
     except (MechanismError, SimulationError) as error:
         message = str(error)
-    if not rows:
+    if not rows or simulation is None:
         return Result(f"refused: {_kind(message)}", message, 0.0, 0.0, 0.0)
     readings = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     depth, pair = _deepest(world, readings)
@@ -68,7 +70,11 @@ def run(world: LatticeWorld) -> Result:
         return Result("overlap", f"{pair} by {depth:.2e} m {message}", reached, depth, gained)
     if gained > ENERGY:
         return Result("energy", f"grows by {gained:.2e} of its range {message}", reached, depth, gained)
-    return Result(f"refused: {_kind(message)}" if message else "", message, reached, depth, gained)
+    proved = ""
+    if "No set of pushing" in message:
+        modes = solution_modes(problem_at(simulation, world.mechanism))
+        proved = "(proved) " if modes is None else f"(although {modes} agree) "
+    return Result(f"refused: {proved}{_kind(message)}" if message else "", message, reached, depth, gained)
 
 
 def _kind(message: str) -> str:
@@ -92,10 +98,11 @@ def _deepest(world: LatticeWorld, readings: dict[str, np.ndarray]) -> tuple[floa
 def _energy_gained(world: LatticeWorld, readings: dict[str, np.ndarray]) -> float:
     """Energy above the least before, as a part of its range."""
     kinetic = potential = np.zeros(1)
+    gravity = (world.mechanism.gravity or (0.0, 0.0))[1]
     for body in world.mechanism.bodies:
         u, v, w = (readings[f"{body.name}.{c}"] for c in ("x_rate", "y_rate", "speed"))
         kinetic = kinetic + 0.5 * body.mass * (u * u + v * v) + 0.5 * body.inertia * w * w
-        potential = potential - body.mass * world.mechanism.gravity[1] * readings[f"{body.name}.y"]
+        potential = potential - body.mass * gravity * readings[f"{body.name}.y"]
     size = float(kinetic.max() + np.ptp(potential)) or 1.0
     energy = kinetic + potential
     return float((energy - np.minimum.accumulate(energy)).max() / size)

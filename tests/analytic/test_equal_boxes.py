@@ -81,7 +81,7 @@ def test_equal_blocks_stand_on_each_other(count: int, until: float, friction: fl
         assert np.abs(result[f"{name}_y"] - (k + 0.5) * HEIGHT).max() < 1e-9
         assert np.abs(result[f"{name}_x"]).max() < 1e-9
     assert np.max(result["kinetic_energy"]) < 1e-18
-    assert not result.events
+    assert all(event.guard.endswith(".handover") for event in result.events)  # without friction 1e-10 m to and fro
 
 
 @pytest.mark.parametrize("count", [3, 10, pytest.param(30, marks=pytest.mark.slow)])
@@ -108,7 +108,7 @@ def test_equal_blocks_fall_over_when_pushed(count: int) -> None:
     push = 1.3 * count * GRAVITY * WIDTH / 2 / height
     assert push < 0.8 * count * GRAVITY or count == 3
     mechanism, names = stack(count, 0.8 if count > 3 else 2.0, push=push)
-    result = run(mechanism, names, 1.0)
+    result = run(mechanism, names, 1.0 if count < 30 else 2.0)  # 30 turn by 0.02 (cosh(2.2 t) - 1) rad, t in s
     assert overlap(result, names) < 1e-9
     assert min(result[f"{name}_angle"].min() for name in names) < -0.5
 

@@ -32,7 +32,7 @@ def draw(chance: random.Random) -> Solid:
 
 def pair(one: Solid, other: Solid, points: int = 20) -> Simulation:
     """A body far from a fixed one."""
-    body = Body("body", 1.0, 1.0, start=(100.0, 0.0, 0.0))
+    body = Body("body", 1.0, 1.0, start=(100.0, 0.0, 0.0), start_rate=(0.0, -0.1, 0.0))
     contact = OutlineContact(
         "pair", body, GROUND, outline_i=one.outline, outline_j=other.outline, restitution=0.5, points=points
     )

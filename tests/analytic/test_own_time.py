@@ -46,7 +46,7 @@ def slider_crank(speed, gravity, driven=True):
     )
     crank = bar("crank", (0, 0), pin, mass=0.2, speed=speed)
     rod = bar("rod", pin, (end, 0), mass=0.3)
-    slider = Body("slider", mass=0.5, inertia=1e-3, x=end, y=0.0)
+    slider = Body("slider", 0.5, 1e-3, (end, 0.0, 0.0))
     joints = [
         Revolute("A", crank.a, GROUND.at(0, 0)),
         Revolute("B", crank.b, rod.a),

@@ -15,8 +15,13 @@ import numpy.typing as npt
 import pytest
 from typer.testing import CliRunner
 
+import build_fmu
 import models
 from harness.app.cli import main
+from harness.designs import by_batch, by_fmu
+from harness.designs.task import Design, Task
+from harness.fmu import open_fmu
+from harness.run.master import TimeGrid
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.stress import STEEL, WedgeTooth, maximum_stress
 from models.ratchet.start import tooth
@@ -45,6 +50,26 @@ PARAMETERS = (
     *settings_parameters(),
 )
 MODEL = Model("Ball", "Ball that falls", PARAMETERS, mechanism, stop_time=0.6)
+"""
+#: What counts nothing: a ball above a floor, which it strikes after sqrt(h / 5 m) s; a wheel on a brake.
+UNCOUNTED = """
+from mechanism_fmu.model import *
+
+def mechanism(values):
+    ball = rigid_body("ball", (0, values.h), mass=1.0, inertia=1.0)
+    floor = PointLineContact("floor", ball, GROUND.line((0, 0), (1, 0)), restitution=0.5)
+    wheel = rigid_body("wheel", (5.0, 0.0), mass=1.0, inertia=1.0)
+    hinge = Revolute("hinge", wheel.at(0, 0), GROUND.at(5.0, 0.0))
+    forces = (Torque("drive", wheel, torque=values.torque), Brake("brake", wheel, limit=2.0))
+    outputs = (Output("y", ball.y, "Height", "m"), Output("a", wheel.angle, "Angle", "rad"))
+    return Mechanism((ball, wheel), (hinge,), forces, (floor,), outputs=outputs, gravity=(0.0, -10.0))
+
+PARAMETERS = (
+    length_parameter("h", 5.0, "From which it falls"),
+    Parameter("torque", 1.0, "Of the drive", "N.m", -10.0, 10.0),
+    *settings_parameters(),
+)
+MODEL = Model("Uncounted", "Events that no output counts", PARAMETERS, mechanism, stop_time=1.0)
 """
 RATCHET = models.load("ratchet").MODEL
 QUANTITIES = ("first_impact.time", "first_impact.wheel_speed", "first_impact.stress_max")
@@ -174,3 +199,53 @@ def test_a_falling_ball_has_closed_forms(height: float, g: float, tmp_path: Path
     assert derivatives["first_impact.closing_speed"]["height"] == pytest.approx(g / speed, rel=1e-8)
     assert derivatives["first_impact.closing_speed"]["gravity"] == pytest.approx(height / speed, rel=1e-8)
     assert found["relative"]["first_impact.time"] == pytest.approx({"height": 0.5, "gravity": -0.5}, rel=1e-8)
+
+
+@pytest.fixture(scope="module")
+def uncounted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    file = tmp_path_factory.mktemp("uncounted") / "uncounted.py"
+    file.write_text(UNCOUNTED, encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize(("height", "slope"), [(5.1, 1.0), (4.99999, -0.4999985), (4.9, -0.485075)])
+def test_beside_an_event_the_slope_is_that_of_its_side(height: float, slope: float, uncounted: Path) -> None:
+    """Before it has struck, y = h - 5 m; then y = v (1 - t) / 2 - ..., v = 10 t."""
+    time = math.sqrt(height / 5.0)
+    if time < 1.0:  # y = 5 t (1 - t) - 5 (1 - t)^2, t' = 1/(10 t)
+        slope = (15.0 - 20.0 * time) / (10.0 * time)
+    found = gradient(uncounted, "--of", "end.y", "--by", "h", "--set", f"h={height}")
+    assert found["derivatives"]["end.y"]["h"] == pytest.approx(slope, abs=1e-7)
+    assert abs(found["derivatives"]["end.y"]["h"] - slope) <= found["errors"]["end.y"]["h"] + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("of", "by", "setting", "reason"),
+    [
+        ("end.y", "h", "h=5.0000001", "the end comes next, but beside it floor.gap"),
+        ("end.y", "h", "h=5", "comes next, but beside it"),
+        ("end.a", "torque", "torque=2", "brake sticks at the start"),
+    ],
+)
+def test_across_an_event_that_nothing_counts_there_is_none(
+    of: str, by: str, setting: str, reason: str, uncounted: Path
+) -> None:
+    arguments = ["gradient", str(uncounted), "--of", of, "--by", by, "--set", setting, "--json"]
+    done = CliRunner().invoke(main, arguments)
+    assert done.exit_code == 1
+    found = json.loads(done.stdout)
+    assert found["derivatives"][of][by] is None
+    assert reason in found["none"][by]
+
+
+def test_an_fmu_names_the_same_events_in_its_log(uncounted: Path, tmp_path: Path) -> None:
+    path = build_fmu.built(str(uncounted), tmp_path)
+    with open_fmu(path) as fmu:
+        task = Task(TimeGrid.of(1.2, 0.1), {}, None, (), events=True)
+        designs = [Design(1, {"h": 5.0}), Design(2, {"h": 8.0})]
+        by_calls = by_fmu.run_designs(fmu, task, designs)
+        at_once = by_batch.run_designs(fmu, task, designs)
+    assert [result.events for result in by_calls] == [("floor.gap",), ()]
+    assert [result.events for result in at_once] == [
+        ("brake sticks at the start", *result.events) for result in by_calls
+    ]

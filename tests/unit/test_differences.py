@@ -178,3 +178,23 @@ def test_a_cubic_is_exact(coefficients: list[float], x: float, side: str) -> Non
     scale = abs(x) or 1.0
     size = sum(abs(c) * scale**k for k, c in enumerate(coefficients)) / scale
     assert abs(found.matrix[0, 0] - cubic.deriv()(x)) <= 1e-9 * size
+
+
+@pytest.mark.parametrize("way", [0.0, 1e-7, -1e-5])
+@pytest.mark.parametrize("slopes_", [(0.0, 0.5), (-0.5, 1.0), (2.0, 1.999)])
+def test_a_kink_that_no_event_names_is_found(way: float, slopes_: tuple[float, float]) -> None:
+    """Within the smallest step of it: there is no derivative, and both slopes are told."""
+    below, above = slopes_
+    found = of_one(lambda x: math.sin(x) + (above if x > 5.0 + way else below) * (x - 5.0 - way), 5.0)
+    assert math.isnan(found.matrix[0, 0])
+    assert "below" in found.changes[0]
+
+
+@given(st.floats(-8.0, -1.0), st.booleans(), st.floats(-2.0, 2.0), st.floats(-2.0, 2.0))
+def test_the_error_beside_a_kink_is_no_larger_than_said(power: float, up: bool, below: float, above: float) -> None:
+    """Wherever it is: none, or the slope at the middle within its error."""
+    place = 1.0 + (10.0**power if up else -(10.0**power))
+    found = of_one(lambda x: math.sin(x) + (above if x > place else below) * (x - place), 1.0)
+    true = math.cos(1.0) + (above if place < 1.0 else below)
+    if not found.changes[0]:
+        assert abs(found.matrix[0, 0] - true) <= found.errors[0, 0] + 1e-10

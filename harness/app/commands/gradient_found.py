@@ -124,7 +124,11 @@ def _task(asked: Asked, description: Description) -> tuple[list[Quantity], list[
     stop = parse_time(asked.stop_time, "--stop-time", description)
     step = parse_time(asked.step, "--step", description)
     recorded = dict.fromkeys([*with_slenderness(quantities, description), *events_of(quantities, description)])
-    return quantities, free, Task(TimeGrid.of(*default_times(description, stop, step)), fixed, None, tuple(recorded))
+    return (
+        quantities,
+        free,
+        Task(TimeGrid.of(*default_times(description, stop, step)), fixed, None, tuple(recorded), events=True),
+    )
 
 
 def _moved(name: str, description: Description) -> Variable:

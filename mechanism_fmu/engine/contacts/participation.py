@@ -11,12 +11,13 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Strikes
 from ...tables.parts import Bodies, Contacts, Forces, Joints, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import PILED, RESTS_BELOW, TOUCHES_WITHIN
+from ...tolerances import PILED, RESTS_BELOW, ROOT_TOLERANCE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import BRAKE, rubs
 from ..dynamics.islands import leader_of
-from ..scales import contact_unit, present_rate
-from .binding import is_free
+from ..outlines.nearest import FREE, look_no_deeper, nearest
+from ..scales import contact_unit, length_scale, present_rate, rate_scale
+from .binding import free_place, is_free, let_loose, take_found
 from .guards import gap
 
 
@@ -50,9 +51,9 @@ def find_participants(block: Array, at: Pose, guard: int, subject: int) -> int:
     else:
         _let_guard_take_part(block, guard, subject)
     if guard == codes.GUARD_GAP and not rubs(block) and Course(block).counters[codes.PILE] < PILED:
-        left = max(gap(block, at, subject)[0], 0.0)  # of the guard's own gap, by how its instant is found
+        look_no_deeper(block, 0.0)
         for c in range(table.mode.shape[0]):
-            if _closes_now(block, at, c, left):
+            if _closes_now(block, at, c):
                 _let_take_part(block, table.body_i[c], table.body_j[c])
     count = 0
     for b in range(ground + 1):
@@ -128,13 +129,23 @@ def _touches(block: Array, at: Pose, contact: int) -> bool:
 
 
 @jit
-def _closes_now(block: Array, at: Pose, contact: int, left: float) -> bool:
-    """Whether an open contact approaches and has closed but for what is `left` [m]."""
+def _closes_now(block: Array, at: Pose, contact: int) -> bool:
+    """Whether an open contact closes at this instant, as closely as instants of events are found."""
     keep_small()
-    if not _exists_open(block, contact):
-        return False
-    distance, rate = gap(block, at, contact)
-    return distance <= left and rate < -RESTS_BELOW * contact_unit(block, contact) * present_rate(block)
+    searched = is_free(block, contact) and Contacts(block).value[contact, codes.ENABLED] > 0.5
+    searched = searched and free_place(block, Contacts(block).group[contact]) == contact
+    if searched:
+        if nearest(block, at, contact, FREE) > TOUCHES_WITHIN * length_scale(block):
+            return False
+        take_found(block, contact)
+    closes = False
+    if _exists_open(block, contact):
+        distance, rate = gap(block, at, contact)
+        closes = distance <= -ROOT_TOLERANCE / rate_scale(block) * rate
+        closes = closes and rate < -RESTS_BELOW * contact_unit(block, contact) * present_rate(block)
+    if searched:
+        let_loose(block, contact)
+    return closes
 
 
 @jit

@@ -8,9 +8,11 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rows
 from ...tables.parts import Contacts, Curves
+from ...tables.sizes import Sizes
+from ...tolerances import MARGIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from .curves import curve, quarter_wave, sample
+from .curves import curve, piece_at, quarter_wave, sample
 
 # A row that several joints share: the distance of two points along a vector fixed in a body.
 
@@ -107,6 +109,35 @@ def examine_profiles(block: Array) -> int:
             if not total > 0.0:
                 table.hollow[c] = codes.BRIDGES
     return status.OK
+
+
+@jit
+def passes_join(block: Array, before: Array, after: Array) -> bool:
+    """Whether a closed pair comes from one piece of a profile to another between two states y, or within MARGIN."""
+    keep_small()
+    table = Contacts(block)
+    for c in range(table.kind.shape[0]):
+        if table.alpha[c] == codes.NONE or table.mode[c] != codes.CLOSED:
+            continue
+        k = Sizes(block).y_alpha + table.alpha[c]
+        for number in (table.curve_i[c], table.curve_j[c]):
+            if number == codes.NONE:
+                continue
+            low = min(before[k], after[k]) - MARGIN
+            if _turned_piece(block, number, low) != _turned_piece(block, number, max(before[k], after[k]) + MARGIN):
+                return True
+            k += 1
+    return False
+
+
+@jit
+def _turned_piece(block: Array, number: int, x: float) -> int:
+    """The piece of a profile at x, in whichever turn."""
+    keep_small()
+    if Curves(block).periodic[number] == 1:
+        start, span = Curves(block).range[number, 0], Curves(block).range[number, 1]
+        x -= math.floor((x - start) / span) * span
+    return piece_at(block, number, x)
 
 
 @jit

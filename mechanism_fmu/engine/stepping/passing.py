@@ -270,7 +270,8 @@ def _distance(block: Array, y: Array, other: Array) -> float:
         if i >= Sizes(block).y_alpha:
             least = ABSOLUTE_FRACTION * unknown_scale(block, i)
         most = max(most, abs(y[i] - other[i]) / (least + abs(y[i])))
-    return most / relative
+    error: float = most / relative
+    return error
 
 
 @jit

@@ -17,6 +17,7 @@ from ..constraints.kinematics import place_bodies
 from ..elementary import power
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
+from ..profiles.shape import passes_join
 from ..scales import rate_scale
 from .reach import IN_LINE, is_out_of_reach
 from .runge_kutta import scaled_error, try_step
@@ -136,9 +137,15 @@ def accurate_step(block: Array, start: float) -> float:
     grow_most = _GROW_MOST
     while not error <= 1.0:
         now.counters[codes.COUNT_REJECTED] += 1
+        tried = step
         step = representable(start, step * scale_of_step(error, 1.0))
         grow_most = 1.0
         if not step > smallest_step(block, start):
+            joins = error < math.inf and Sizes(block).alphas > 0
+            if joins and passes_join(block, Stages(block).y_start, Stages(block).y_new):
+                step = tried  # the curvature jumps there, and with it accelerations: rates by no more than rounding
+                error = 1.0
+                break
             if not is_beyond_explicit(block):
                 return 0.0
             step = representable(start, _FIRST_IMPLICIT * smallest_step(block, start))

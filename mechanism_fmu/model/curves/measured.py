@@ -24,6 +24,8 @@ _SHARE = 0.02
 #: Noise of 1 swings the second derivative by 7.5 over the squared distance of points (cubic; 5th degree: 17). Beyond
 #: this, something else swings it, such as the ringing of a spline behind a corner.
 _MOST_BY_NOISE = 100.0
+#: Floats are rounded to 1.1e-16 of them, and so scatter values that were calculated.
+_ROUNDING = 1e-15
 #: Points on either side that the trend is the mean of.
 _HALF_WINDOW = 4
 #: Of a normal distribution: the median of the magnitude, in standard deviations.
@@ -119,6 +121,8 @@ def remark_on(curve: Curve) -> str | None:
     if len(curve.pieces) < _FEWEST or not polynomial or not _is_plain_curve(curve):
         return None
     places, values, second = _starts(curve)
+    if not np.all(np.diff(places) > 0.0):
+        return None
     bends = np.append(second, second[:2]) if curve.periodic else second
     off = bends[1:-1] - 0.5 * (bends[:-2] + bends[2:])
     by_turns = float(np.mean(off[:-1] * off[1:] < 0.0))
@@ -129,7 +133,8 @@ def remark_on(curve: Curve) -> str | None:
         places, values = np.append(places, places[0] + float(curve.span)), np.append(values, values[0])
     scatter = scatter_of(places, values)
     by_noise = _MOST_BY_NOISE * scatter / float(np.median(np.diff(places))) ** 2
-    if not (by_turns > _BY_TURNS and _SHARE * trend < swing < by_noise):
+    by_rounding = scatter <= _ROUNDING * float(np.abs(values).max())
+    if by_rounding or not (by_turns > _BY_TURNS and _SHARE * trend < swing < by_noise):
         return None
     return (
         f"has {len(curve.pieces)} points whose second derivative is noise: from point to point it goes up and down by "

@@ -26,6 +26,8 @@ typedef struct {
     int64_t *impact_count;
     int64_t *status;
     int64_t *next;
+    int64_t *events, *event_count;
+    int64_t kept_events;
 } Job;
 
 #define FIELD(block, name) ((block) + ((const int64_t *)(block))[SLOT_##name])
@@ -53,6 +55,38 @@ static int64_t keep_impacts(const Job *job, const double *block, int64_t design,
     return count;
 }
 
+static void keep_event(const Job *job, int64_t design, int64_t guard, int64_t subject) {
+    int64_t place = job->event_count[design]++;
+    if (place >= job->kept_events) return;
+    int64_t *event = job->events + (design * job->kept_events + place) * 2;
+    event[0] = guard;
+    event[1] = subject;
+}
+
+/* How the motion begins, as events: the contacts that are closed, and behind their numbers what sticks. */
+static void keep_beginning(const Job *job, const double *block, int64_t design) {
+    const int64_t *mode = (const int64_t *)(block + ((const int64_t *)block)[SLOT_contact_mode]);
+    const int64_t *slip = (const int64_t *)(block + ((const int64_t *)block)[SLOT_rub_slip]);
+    int64_t contacts = SIZE(block, contacts);
+    for (int64_t c = 0; c < contacts; c++)
+        if (mode[c] == CODE_CLOSED) keep_event(job, design, CODE_GUARD_BEGIN, c);
+    for (int64_t k = 0; k < SIZE(block, rubs); k++)
+        if (slip[k] == CODE_STICKS) keep_event(job, design, CODE_GUARD_BEGIN, contacts + k);
+}
+
+/* Keep the events since there were `seen`; they are the last ones of the buffer. */
+static int64_t keep_events(const Job *job, const double *block, int64_t design, int64_t seen) {
+    const int64_t *counters = (const int64_t *)(block + ((const int64_t *)block)[SLOT_counters]);
+    int64_t count = counters[CODE_COUNT_EVENTS], held = counters[CODE_EVENTS_IN_STEP];
+    for (int64_t k = seen; k < count; k++) {
+        int64_t place = held - (count - k);
+        const double *record = FIELD(block, events) + place * SIZE(block, event);
+        if (place < 0) keep_event(job, design, CODE_GUARD_NONE, CODE_NONE); /* more at once than the buffer holds */
+        else keep_event(job, design, (int64_t)record[CODE_EVENT_GUARD], (int64_t)record[CODE_EVENT_SUBJECT]);
+    }
+    return count;
+}
+
 /* Where the motion has come to: widen the extremes, if they are asked for. */
 static void look(const Job *job, double *block, int64_t design) {
     if (!job->least) return;
@@ -77,15 +111,21 @@ static int64_t run(const Job *job, double *block, int64_t design) {
     const double *time = FIELD(block, clock) + CODE_TIME;
     job->reached[design] = *time;
     look(job, block, design);
-    int64_t impacts = 0;
+    int64_t impacts = 0, events = 0;
+    int64_t rule = job->kept_events ? CODE_STOP_AT_IMPACT + CODE_STOP_AT_EVENT : CODE_STOP_AT_IMPACT;
+    if (job->kept_events) {
+        keep_beginning(job, block, design);
+        events = keep_events(job, block, design, 0);
+    }
     for (int64_t point = 0; point < job->points; point++) {
         drive(job, block, point);
         outcome = mechanism_begin_step(block, job->words);
         do {
             if (outcome == STATUS_OK)
-                outcome = mechanism_go_on(block, job->words, job->times[point + 1], CODE_STOP_AT_IMPACT);
+                outcome = mechanism_go_on(block, job->words, job->times[point + 1], rule);
             job->reached[design] = *time;
             if (COUNTERS(block)[CODE_COUNT_IMPACTS] > impacts) impacts = keep_impacts(job, block, design, impacts);
+            if (job->kept_events) events = keep_events(job, block, design, events);
             if (outcome != STATUS_OK) return outcome;
         } while (*time < job->times[point + 1] && !(job->until_impact && impacts));
         look(job, block, design);
