@@ -35,8 +35,10 @@ ROOT_TOLERANCE = 1e-13
 #: A force that lacks less than these shares still pushes; it opens at twice that (`engine.dynamics.rounding`): of what
 #: acts since the last event, which mending of drift disturbs by so much, and of the largest force along any row, by the
 #: masses.
-PUSHES_WITHIN = 3e-11
+PUSHES_WITHIN = 1e-11
 PUSHES_SHARE = 1e-11
+#: An acceleration may miss this share of what acts: rows that depend on each other contradict each other by 1e-11 m.
+ACCELERATIONS_WITHIN = 1e-9
 #: Behind an impact, a rate may miss this share of the rates in its row: 10,000 times the rounding of one of them.
 SPEEDS_SHARE = 2e-12
 #: A row that a logical function closes may be off by this: mending would otherwise be a jump.

@@ -14,7 +14,7 @@ import math
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Rows
 from ...tables.sizes import Sizes
-from ...tolerances import PUSHES_SHARE, PUSHES_WITHIN, SPEEDS_SHARE
+from ...tolerances import ACCELERATIONS_WITHIN, PUSHES_SHARE, PUSHES_WITHIN, SPEEDS_SHARE
 from ..compiler.subset import jit, keep_small
 from ..constraints.rows import row_response
 from ..scales import present_rate, row_unit
@@ -34,17 +34,23 @@ def note_level(block: Array, count: int) -> None:
 
 @jit
 def acceleration_rounding(block: Array, row: int) -> float:
-    """Rounding of the acceleration along a row, behind `note_level`."""
-    rate = present_rate(block)
-    own = row_unit(block, row) * rate * rate
-    return PUSHES_WITHIN * own + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
+    """What the acceleration along a row may miss, behind `note_level`."""
+    return _part(block, row, ACCELERATIONS_WITHIN)
 
 
 @jit
 def force_rounding(block: Array, row: int) -> float:
     """Rounding of the force along a row [N, N m], behind `note_level`."""
     response = row_response(block, row)
-    return acceleration_rounding(block, row) / response if response > 0.0 else 0.0
+    return _part(block, row, PUSHES_WITHIN) / response if response > 0.0 else 0.0
+
+
+@jit
+def _part(block: Array, row: int, part: float) -> float:
+    """A part of the acceleration along a row by what acts, and the rounding of the last solve."""
+    rate = present_rate(block)
+    own = row_unit(block, row) * rate * rate
+    return part * own + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
 
 
 @jit
