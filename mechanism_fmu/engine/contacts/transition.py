@@ -76,6 +76,25 @@ PILE_TIME = 1e-9
 
 @jit
 def transit(block: Array, guard: int, subject: int) -> int:
+    """Let an event happen at y_end and STEP_END, by the present rate of what takes part; return a status.
+
+    `guard` and `subject`: see `_process_event`.
+    """
+    keep_small()
+    scales = Course(block).scales
+    find_participants(block, place_bodies(block, Course(block).y_end), guard, subject)
+    before = scales[codes.SCALE_PRESENT]
+    note_rate(block, 0.0, False)
+    of_all = scales[codes.SCALE_PRESENT]
+    scales[codes.SCALE_PRESENT] = before
+    note_rate(block, 0.0, True)
+    outcome = _process_event(block, guard, subject)
+    scales[codes.SCALE_PRESENT] = of_all
+    return outcome
+
+
+@jit
+def _process_event(block: Array, guard: int, subject: int) -> int:
     """Let an event happen at y_end and STEP_END; return a status.
 
     `guard` is `codes.GUARD_BEGIN` when the motion begins and `codes.GUARD_INPUT` when an input has changed: then only
@@ -86,8 +105,6 @@ def transit(block: Array, guard: int, subject: int) -> int:
     shocks = guard == codes.GUARD_SHOCK
     now = Course(block)
     note_mode(block, EVENT)
-    note_rate(block, 0.0)
-    find_participants(block, place_bodies(block, now.y_end), guard, subject)
     if guard == codes.GUARD_INPUT:
         note_sticks(block)
     outcome = _take_effect(block, guard, subject)

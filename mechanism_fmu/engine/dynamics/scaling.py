@@ -10,7 +10,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Loads, Rows
+from ...tables.motion import Course, Loads, Rows, Strikes
 from ...tables.parts import Bodies, Outlines
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart
@@ -61,10 +61,11 @@ def note_sizes(block: Array) -> None:
 
 
 @jit
-def note_rate(block: Array, least: float) -> None:
+def note_rate(block: Array, least: float, of_event: bool) -> None:
     """Write the scale of the present rate from what acts and moves at y_end, and that of all rates, where none is yet.
 
-    It is `least` [1/s] or more. What nothing acts on and nothing moves in goes by 1/s, until something does.
+    Where it is `of_event`, from what takes part in the event alone. It is `least` [1/s] or more. What nothing acts on
+    and nothing moves in goes by 1/s, until something does.
     """
     keep_apart()
     scales = Course(block).scales
@@ -76,6 +77,8 @@ def note_rate(block: Array, least: float) -> None:
     size = Loads(block).size
     moves, acts = least, 0.0
     for k in range(0, n, 3):
+        if of_event and Strikes(block).island[k // 3] == codes.NONE:
+            continue
         speed = max(abs(y[n + k]), abs(y[n + k + 1])) / length
         moves = max(moves, speed, abs(y[n + k + 2]))
         acts = max(acts, max(size[k], size[k + 1]) * inverse[k] / length)

@@ -46,7 +46,7 @@ def start(block: Array, time: float) -> int:
     keep_apart()
     _begin_at_zero(block, time)
     note_sizes(block)
-    note_rate(block, 1.0 / within_motions(block, time, math.inf))
+    note_rate(block, 1.0 / within_motions(block, time, math.inf), False)
     at = place_bodies(block, Course(block).y_end)
     if _profiles_overlap(block, at):
         return status.OVERLAP
