@@ -12,7 +12,7 @@ from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..constraints.friction_rows import slips
+from ..constraints.friction_rows import rubs, slips, sticks
 from ..constraints.kinematics import place_bodies
 from ..elementary import power
 from ..profiles.curves import NEARLY, within_motions
@@ -58,8 +58,11 @@ _FIRST_IMPLICIT = 1e5
 _SAFETY = 0.9
 _SHRINK_MOST = 0.2
 _GROW_MOST = 5.0
-#: A mechanism at rest strides ever further; an infinite step, which never gets smaller, would be tried for ever [s].
+#: A mechanism at rest takes ever longer steps; an infinite one, which never gets smaller, would be tried for ever [s].
 _LONGEST_STEP = 1e100
+#: While something sticks, a step is no longer than so many times of the mechanism, or this part of |t|: by the rounding
+#: of its acceleration, 1e-16 of what acts, what is held moves within a step by the square of that.
+_LONGEST_HELD, _LONGEST_HELD_PART = 100.0, 0.01
 
 
 @jit
@@ -70,7 +73,7 @@ def accurate_step(block: Array, start: float) -> float:
     """
     keep_small()
     now = Course(block)
-    wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
+    wanted = min(now.clock[codes.NEXT_STEP], _longest_step(block, start))
     if now.counters[codes.IMPLICIT] == 1:  # what a first step is guessed from may be what is stiff
         wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(block, start))
     step = representable(start, within_ramp(block, start, wanted))
@@ -97,6 +100,17 @@ def accurate_step(block: Array, start: float) -> float:
     if now.counters[codes.RAMPING] != 0 and grow_most > 1.0 and step < wanted:  # cut short by the slopes' end alone
         now.clock[codes.NEXT_STEP] = max(now.clock[codes.NEXT_STEP], wanted)
     return step
+
+
+@jit
+def _longest_step(block: Array, start: float) -> float:
+    """The size that no step from `start` [s] exceeds [s]."""
+    keep_small()
+    if rubs(block):
+        for k in range(Sizes(block).rubs):
+            if sticks(block, k):
+                return max(_LONGEST_HELD / rate_scale(block), _LONGEST_HELD_PART * abs(start))
+    return _LONGEST_STEP
 
 
 @jit
