@@ -236,6 +236,10 @@ def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
     return Parameter("joint_friction_radius", 0.0, description, "m", 0.0, 1.0, usual=(0.0, 2e-3))
 
 
+_ALPHA = "Baumgarte gain on the rates of the constraints"
+_BETA = "Baumgarte gain on the constraints, squared in use"
+
+
 def settings_parameters(alpha: float = 0.0, beta: float = 0.0) -> tuple[Parameter, ...]:
     """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps, method.
 
@@ -244,8 +248,8 @@ def settings_parameters(alpha: float = 0.0, beta: float = 0.0) -> tuple[Paramete
         beta: default of the gain on rows [1/s], 1 in Pennestri et al.
     """
     return (
-        Parameter("baumgarte_alpha", alpha, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
-        Parameter("baumgarte_beta", beta, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
+        Parameter("baumgarte_alpha", alpha, _ALPHA, "1/s", 0.0, 1e4, usual=(0.0, 2.0 * (alpha or 10.0))),
+        Parameter("baumgarte_beta", beta, _BETA, "1/s", 0.0, 1e4, usual=(0.0, 2.0 * (beta or 1.0))),
         Parameter("relative_tolerance", 1e-9, "Relative tolerance of the integration", "1", 1e-13, 1e-3),
         Parameter(
             "max_internal_steps",
