@@ -83,9 +83,7 @@ def first_to_let_go(block: Array, latest: float) -> tuple[int, int, float]:
         if table.mode[c] != codes.CLOSED or not can_open(block, c):
             continue
         least = table.least_push[c]
-        # with friction, a force that grows without limit (Painleve) would look as if it had dipped before
-        dips = not rubs(block) and least < _DIPS_BELOW * (table.most_push[c] - least)
-        if least < _LETS_GO or dips:
+        if least < _LETS_GO or least < _DIPS_BELOW * (table.most_push[c] - least):
             lets_go = _first_below(block, codes.GUARD_PUSH, c, min(latest, fraction), _LETS_GO, _PUSH_CLOSE)
             if lets_go < min(latest, fraction):
                 guard = codes.GUARD_PUSH
