@@ -275,9 +275,10 @@ def _settle(block: Array, guard: int, subject: int) -> int:
     outcome = status.NO_CHOICE
     if not shocks:
         outcome = push_forces(block, at)
-    if outcome == status.OK and guard == codes.GUARD_PUSH and table.mode[subject] == codes.CLOSED:
-        if not coefficient(block, subject) > 0.0:  # with friction, closed and open may both agree (Painleve)
-            outcome = _let_open(block, at, subject)
+    # with friction, closed and open may both agree (Painleve)
+    lets_go = guard == codes.GUARD_PUSH and not coefficient(block, subject) > 0.0
+    if outcome == status.OK and lets_go and table.mode[subject] == codes.CLOSED:
+        outcome = _let_open(block, at, subject)
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)
     if outcome == status.NO_CHOICE and shocks:
