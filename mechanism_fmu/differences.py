@@ -108,6 +108,11 @@ def _moved(x: Array, place: int, value: float) -> Array:
     return moved
 
 
+#: So many times what is left of the jump of the slope, once its part of the step's size is taken out, holds what a kink
+#: within the last steps may do to an extrapolated slope: found in 6000 draws.
+_KINK = 4.0
+
+
 class _Table:
     """Richardson's table of a quotient whose error has the powers `first`, `first + apart` ... of the step."""
 
@@ -166,6 +171,11 @@ class _Column:
         error: Array = np.maximum(self.slope.error, np.where(self.slope.best == 0.0, 0.0, rounding))
         if self.jump.rows:
             error = np.maximum(error, 0.5 * np.abs(self.jump.best))
+        if len(self.jump.rows) > 3:  # of a kink within the last steps, what is left does not fall as the steps' cubes
+            left = [np.abs(row[1]) for row in self.jump.rows[-3:]]
+            stays = (left[2] > 0.25 * left[1]) | (left[1] > 0.25 * left[0])
+            stays &= np.maximum(left[1], left[2]) > _NOISE * np.abs(self.middle) / self._largest_step
+            error = np.where(stays, np.maximum(error, _KINK * np.maximum(left[1], left[2])), error)
         return error
 
     @property

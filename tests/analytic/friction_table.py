@@ -44,7 +44,7 @@ def _runs() -> Iterator[tuple[Any, Any, Any]]:
         marks = {mark.args[0]: mark.args[1] for mark in getattr(test, "pytestmark", ())}
         pairs = marks.pop(("case", "part"), ())
         (hows,) = marks.values() or ((None,),)
-        yield from ((case, part, how) for case, part in pairs for how in hows)
+        yield from ((*pair.values, how) for pair in pairs for how in hows)
 
 
 def table() -> str:

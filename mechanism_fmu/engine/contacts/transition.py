@@ -10,7 +10,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
-from ..constraints.friction_rows import rubs, slips, sticks, touches
+from ..constraints.friction_rows import coefficient, rubs, slips, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
@@ -275,7 +275,9 @@ def _settle(block: Array, guard: int, subject: int) -> int:
     outcome = status.NO_CHOICE
     if not shocks:
         outcome = push_forces(block, at)
-    if outcome == status.OK and guard == codes.GUARD_PUSH and table.mode[subject] == codes.CLOSED:
+    # with friction, closed and open may both agree (Painleve)
+    lets_go = guard == codes.GUARD_PUSH and not coefficient(block, subject) > 0.0
+    if outcome == status.OK and lets_go and table.mode[subject] == codes.CLOSED:
         outcome = _let_open(block, at, subject)
     if outcome == status.NO_CHOICE and Options(block).settings[codes.TANGENTIAL_SHOCK] > 0.5:
         outcome = _shock(block, count)

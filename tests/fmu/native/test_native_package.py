@@ -82,8 +82,11 @@ def test_nothing_else_is_inside_that_does_not_belong_there(fmu, fmi):
 
 
 def test_it_has_grown_by_no_more_than_a_tenth(fmu, fmi):
-    """Since commit 1388b43b, without the sparse solution, implicit steps, singular passes and Model Exchange."""
-    assert fmu.stat().st_size <= 1.1 * {2: 727_136, 3: 727_311}[fmi]
+    """Since commit 1388b43b, without the sparse solution, implicit steps, singular passes and Model Exchange.
+
+    And by 5 % more with thresholds of forces, islands of events, corners on corners and shared friction.
+    """
+    assert fmu.stat().st_size <= 1.155 * {2: 727_136, 3: 727_311}[fmi]
 
 
 def test_fmpy_finds_no_problem(fmu):
