@@ -15,6 +15,7 @@ from pythonfmu.builder import FmuBuilder
 
 from ..model import MechanismError
 from ..model.baked import NOTHING_BAKED, Baked
+from ..model.mechanism import curve_owners
 from .disk.archive import content_hash, read_entries, with_guid, write_archive
 from .disk.folders import temporary_folder
 from .disk.user_cache import record_build
@@ -103,6 +104,7 @@ def build_fmu(
 
     given = _as_arguments(baked)
     # One name for one content: a process that loads several FMUs then never runs the code of the wrong one.
+    smooths = any(curve.smoothing is not None for _, curve in curve_owners(model.build(model.values())))
     starting = f"{_SLAVE}{model.name}{main}{given}".encode()
     digest = content_hash({**code, "start": start.encode(), "slave": starting})[:12]
     package, starter = f"mechanism_fmu_{digest}", f"start_{digest}"
@@ -112,7 +114,7 @@ def build_fmu(
         {
             f"{model.name}_{digest}.py": slave.encode(),
             f"{starter}.py": start.encode(),
-            "requirements.txt": _requirements(sources, bool(compiled)).encode(),
+            "requirements.txt": _requirements(sources, bool(compiled), smooths).encode(),
             **{f"{package}/{name}": contents for name, contents in code.items()},
         },
     )
@@ -214,18 +216,19 @@ def _imports_left_alone(slave: str) -> Iterator[None]:
         sys.modules.update(before)
 
 
-def _requirements(sources: Closure, compiled: bool) -> str:
+def _requirements(sources: Closure, compiled: bool, smooths: bool) -> str:
     """Text of requirements.txt: what the target must install, with the pins of the project.
 
     Args:
         sources: that travel.
         compiled: the engine travels compiled, so that the compiler is needed on other platforms only.
+        smooths: a curve is smoothed where the FMU runs, by the library that `model.curves.measured` loads.
 
     Raises:
         MechanismError: a package that is no dependency of the project.
     """
     pins = {re.split(r"[^\w.-]", pin, maxsplit=1)[0]: pin for pin in dependencies()}
-    needed = sources.external - _BROUGHT_ALONG
+    needed = sources.external - _BROUGHT_ALONG | ({"scipy"} if smooths else set())
     for name in sorted(needed - pins.keys()):
         raise MechanismError(
             f"{sources.importers[name]}: the model imports {name}, which mechanism_fmu does not depend on; an FMU by "

@@ -144,11 +144,12 @@ def _path(
         ends_slip = sigma * slope_t < 0.0
         if ends_slip:
             part = -v_t / slope_t
-        compresses = v_n < 0.0 and target == math.inf
+        compresses = target == math.inf
         ends_phase = False
         if compresses:
-            if slope_n > 0.0 and -v_n / slope_n <= part:
-                part = -v_n / slope_n
+            # Where slip has ended at the same impulse, as with one degree of freedom, rounding may have left v_n > 0.
+            if slope_n > 0.0 and max(0.0, -v_n) / slope_n <= part:
+                part = max(0.0, -v_n) / slope_n
                 ends_phase = True
         elif slope_n > 0.0:
             needed = (math.sqrt(max(0.0, v_n * v_n + 2.0 * slope_n * (target - work))) - v_n) / slope_n

@@ -74,7 +74,7 @@ def _try_impulses(block: Array, at: Pose) -> int:
     if gives:
         for k in range(Sizes(block).coordinates):
             system.solution[k] += Bodies(block).inverse_root_mass[k] * Loads(block).applied[k]
-    slide(block, at, count)
+    slide(block, at, count, Sizes(block).contacts + Sizes(block).joints)
     return count
 
 

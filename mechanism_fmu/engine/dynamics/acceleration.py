@@ -35,7 +35,7 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
     given, lost = apply_forces(block, at, y, dy)
     accelerate(block, count)
     if rubs(block):
-        lost += slide(block, at, count)
+        lost += slide(block, at, count, Sizes(block).rubs)
     free = Loads(block).free_acceleration
     root = Bodies(block).inverse_root_mass
     correction = LinearSystem(block).solution

@@ -33,14 +33,15 @@ _HELD = 1e-12
 
 
 @jit
-def slide(block: Array, at: Pose, count: int) -> float:
+def slide(block: Array, at: Pose, count: int, rubs: int) -> float:
     """Add what friction does to the last solve, of `count` rows: solution and multipliers; the power lost [W].
 
+    Of what slips, the first `rubs` act: brakes come last, whose bounded torque has no impulse.
     Friction is left in `rubs.force`, of what sticks too, and in `loads.rubbing` of joints. Not a number: no normal
     forces agree with their friction.
     """
     keep_small()
-    number = _respond(block, at, count)
+    number = _respond(block, at, count, rubs)
     Rubs(block).sense[0] = 1
     if number > 0 and not _agree(block, number):
         return math.nan
@@ -70,7 +71,7 @@ def slide(block: Array, at: Pose, count: int) -> float:
 
 
 @jit
-def _respond(block: Array, at: Pose, count: int) -> int:
+def _respond(block: Array, at: Pose, count: int, rubs: int) -> int:
     """Find what slips, and what unit forces along their slip do; how many there are. Solution and multipliers stay."""
     keep_small()
     n = Sizes(block).coordinates
@@ -81,7 +82,7 @@ def _respond(block: Array, at: Pose, count: int) -> int:
     number = 0
     for k in range(table.slip.shape[0]):
         table.force[k] = 0.0
-        if not slips(block, k):
+        if k >= rubs or not slips(block, k):
             continue
         if number == 0:
             for i in range(n):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from typing import Any
 
@@ -64,12 +65,8 @@ def smooth_periodic(knots: Sequence[float], values: Sequence[Number], degree: in
             f"A smoothing spline of degree {degree} needs more than {degree} points, but there are {len(values)}."
         )
     try:
-        from scipy.interpolate import (
-            PPoly,
-            make_interp_spline,
-            splev,
-            splrep,
-        )  # takes long to load, and most curves need none of it
+        # Takes long to load; and an FMU by pythonfmu asks for it only where a curve is smoothed (`fmu.package`).
+        scipy_splines = importlib.import_module("scipy.interpolate")
     except ImportError as error:
         raise MechanismError(
             "A profile with noise is smoothed by scipy, which is not installed: "
@@ -77,7 +74,7 @@ def smooth_periodic(knots: Sequence[float], values: Sequence[Number], degree: in
         ) from error
     places, points = np.asarray(knots, dtype=float), np.asarray([*values, values[0]], dtype=float)
     count = len(values)
-    spline, _, failure, message = splrep(
+    spline, _, failure, message = scipy_splines.splrep(
         places, points, np.full(count + 1, 1.0 / noise), k=degree, s=count, per=True, full_output=True, quiet=True
     )
     if failure > 0:
@@ -85,15 +82,15 @@ def smooth_periodic(knots: Sequence[float], values: Sequence[Number], degree: in
             f"No smoothing spline of degree {degree} goes through {count} points with noise of {noise:g}: "
             f"{' '.join(str(message).split())} Give more noise, or none."
         )
-    polynomials = PPoly.from_spline(spline)
+    polynomials = scipy_splines.PPoly.from_spline(spline)
     inside = (polynomials.x[:-1] >= places[0]) & (polynomials.x[:-1] < places[-1]) & (np.diff(polynomials.x) > 0.0)
     pieces = tuple(
         Piece(float(start), (Term(tuple(map(float, row[::-1]))),))
         for start, row in zip(polynomials.x[:-1][inside], polynomials.c.T[inside], strict=True)
     )
-    off = points[:-1] - splev(places[:-1], spline)
-    through = make_interp_spline(places, points, k=degree, bc_type="periodic")
-    change = through(places[:-1], 2) - splev(places[:-1], spline, der=2)
+    off = points[:-1] - scipy_splines.splev(places[:-1], spline)
+    through = scipy_splines.make_interp_spline(places, points, k=degree, bc_type="periodic")
+    change = through(places[:-1], 2) - scipy_splines.splev(places[:-1], spline, der=2)
     smoothing = Smoothing(
         noise=float(noise),
         scatter=scatter_of(places, points),
