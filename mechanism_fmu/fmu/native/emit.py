@@ -26,11 +26,20 @@ _WEB_FEATURES = "+bulk-memory,+mutable-globals,+nontrapping-fptoint,+sign-ext"
 #: Modules of the engine whose functions every evaluation runs through some hundred times: in place of their calls.
 _IN_PLACE = ("vectors", "constraints.entries", "stepping.runge_kutta", "dynamics.minimum_norm")
 
-#: What runs once in a step or less, or on few numbers only: rather short than fast.
+#: What runs once in a step, or on few numbers only: rather short than fast.
 _SHORT = (
-    *("starting", "contacts", "exchange", "outlines", "outputs"),
-    *(f"stepping.{name}" for name in ("rosenbrock", "step_size", "looks", "stage")),
+    *("contacts", "outlines", "outputs", "exchange", "library"),
+    *(f"stepping.{name}" for name in ("step_size", "looks", "stage", "stepper")),
+)
+
+#: What runs at events, at the start and on few models only: as short as can be.
+_SHORTEST = (
+    *("starting", "elastic"),
     *(f"library.{name}" for name in ("_begin", "_begin_step", "_exchange", "_respond", "_read_output_rates")),
+    *(f"stepping.{name}" for name in ("rosenbrock", "passing", "singular", "reach")),
+    *(f"contacts.{name}" for name in ("binding", "complementarity", "doubts", "handover", "impact", "impact_laws")),
+    *(f"contacts.{name}" for name in ("lemke", "participation", "proposal", "routh", "rubbing", "shared_forces")),
+    *(f"contacts.{name}" for name in ("transition", "trial")),
 )
 
 
@@ -43,9 +52,9 @@ def linked(codes: list[llvm.ModuleRef]) -> bytes:
     return whole
 
 
-def _say_how(module: llvm.ModuleRef) -> None:
+def _say_how(module: llvm.ModuleRef, in_place: tuple[str, ...]) -> None:
     """Mark which functions are to be fast, and which short."""
-    for parts, attribute in ((_IN_PLACE, "inlinehint"), (_SHORT, "optsize")):
+    for parts, attribute in ((in_place, "inlinehint"), (_SHORT + _SHORTEST, "optsize"), (_SHORTEST, "minsize")):
         names = tuple(map(_mangled, parts))
         for function in module.functions:
             if not function.is_declaration and any(name in function.name for name in names):
@@ -72,13 +81,14 @@ def object_file(bitcode: bytes, target: Target) -> bytes:
         if symbol.name in EXPORTS:
             symbol.visibility = "hidden"  # several FMUs in one process must not see each other's engine
         elif not symbol.is_declaration:
-            symbol.linkage = "internal"
-    _say_how(module)
+            symbol.linkage = "private"  # as internal, and without a name: 20 kB of the FMU
+    _say_how(module, _IN_PLACE[1:3] if target is WEB else _IN_PLACE)
     # The first, cheap pass shows which calls never report an error; the second leaves nothing of reporting them. With
     # LLVM's own threshold of 225 in the first, and nothing said of any function, it is 10 % longer, and no faster.
     for level in (1, 3):
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
         tuning.loop_interleaving = False  # the engine's loops go over a handful of rows
+        tuning.loop_unrolling = target is not WEB  # which is to be loaded with each page
         tuning.inlining_threshold = 50
         passes = llvm.create_pass_builder(machine, tuning)
         passes.getModulePassManager().run(module, passes)

@@ -93,7 +93,7 @@ def standard() -> Path:
 
 _FLAGS = (  # of all targets
     "-std=gnu11",  # c11 would take ??! in a text for a trigraph
-    "-Os",  # what takes time is in the engine's object
+    "-Oz",  # what takes time is in the engine's object
     "-Wall",
     "-Wextra",
     "-Werror",

@@ -81,12 +81,9 @@ def test_nothing_else_is_inside_that_does_not_belong_there(fmu, fmi):
     assert others == {"modelDescription.xml", "documentation/index.html", *resources, *places[fmi], *OF_EVERY_FLAVOUR}
 
 
-def test_it_has_grown_by_no_more_than_a_tenth(fmu, fmi):
-    """Since commit 1388b43b, without the sparse solution, implicit steps, singular passes and Model Exchange.
-
-    And by 5 % more with thresholds of forces, islands of events, corners on corners and shared friction.
-    """
-    assert fmu.stat().st_size <= 1.155 * {2: 727_136, 3: 727_311}[fmi]
+def test_it_has_grown_by_no_more_than_a_twentieth(fmu, fmi):
+    """Since commit 7b50d2aa, without thresholds of forces, islands of events, corners on corners, shared friction."""
+    assert fmu.stat().st_size <= 1.05 * {2: 799_500, 3: 799_100}[fmi]
 
 
 def test_fmpy_finds_no_problem(fmu):
