@@ -26,19 +26,19 @@ def part_all(block: Array) -> None:
 
 
 @jit
-def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> None:
+def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, least: float) -> None:
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
-    At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
-    whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
-    has just let go: then its row may have drifted, too, and the sign of that speed says nothing of where it will slip.
-    Where it has not stuck before, it does so here. What takes no part in the event stays as it is. All that has
-    friction is looked at where not `only_touching`.
+    At rest is what slips no faster than `SLIPS_ABOVE`, than `least` [m/s, rad/s], or, where it sticks, than its row may
+    drift; and `stopped`, whose slip has just been found to end, whatever speed the instant's rounding leaves. It is
+    taken to stick, unless it has just let go: then its row may have drifted, too, and the sign of that speed says
+    nothing of where it will slip. Where it has not stuck before, it does so here. What takes no part in the event stays
+    as it is. All that has friction is looked at where not `only_touching`.
     """
     keep_small()
     table = Rubs(block)
     spare = spare_row(block)
-    slips_above = SLIPS_ABOVE
+    slips_above = max(SLIPS_ABOVE, least)
     if Course(block).counters[codes.PILE] >= PILED:
         slips_above = SLIPS_WHERE_PILED
     for k in range(table.slip.shape[0]):
@@ -73,7 +73,7 @@ def free_all(block: Array) -> None:
     keep_small()
     table = Rubs(block)
     at = place_bodies(block, Course(block).y_end)
-    look_at_slip(block, at, False, codes.NONE)
+    look_at_slip(block, at, False, codes.NONE, 0.0)
     for k in range(table.slip.shape[0]):
         if island_of(block, k) == codes.NONE:
             continue

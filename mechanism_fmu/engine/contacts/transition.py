@@ -7,7 +7,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rubs, Strikes
 from ...tables.parts import Contacts, Functions, Options, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
+from ...tolerances import CLOSES_WITHIN, GAP_NOISE, RESTS_BELOW, STICK_SPEED, STUCK_BELOW, TOUCHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, rubs, slips, sticks, touches
@@ -271,10 +271,13 @@ def _settle(block: Array, guard: int, subject: int) -> int:
         return status.OK
     Strikes(block).problem[COUNT] = count
     at = place_bodies(block, Course(block).y_end)
-    look_at_slip(block, at, True, stopped)
+    look_at_slip(block, at, True, stopped, 0.0)
     outcome = status.NO_CHOICE
     if not shocks:
         outcome = push_forces(block, at)
+        if outcome == status.NO_CHOICE and rubs(block):  # slip may be what an impact of many contacts has left
+            look_at_slip(block, at, True, stopped, STUCK_BELOW)
+            outcome = push_forces(block, at)
     # with friction, closed and open may both agree (Painleve)
     lets_go = guard == codes.GUARD_PUSH and not coefficient(block, subject) > 0.0
     if outcome == status.OK and lets_go and table.mode[subject] == codes.CLOSED:
@@ -352,7 +355,7 @@ def _shock(block: Array, count: int) -> int:
         Contacts(block).mode[Strikes(block).candidates[k]] = codes.CLOSED
     Strikes(block).problem[COUNT] = count
     at = place_bodies(block, now.y_end)
-    look_at_slip(block, at, True, codes.NONE)
+    look_at_slip(block, at, True, codes.NONE, 0.0)
     return push_forces(block, at)
 
 
