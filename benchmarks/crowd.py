@@ -42,7 +42,7 @@ def heights(count: int) -> list[float]:
 
 
 def crowd(count: int) -> Mechanism:
-    """So many balls side by side, which have nothing to do with each other."""
+    """Return a mechanism of `count` balls side by side, which share no body and no contact."""
     floor = GROUND.line((0.0, 0.0), (1.0, 0.0))
     balls = [rigid_body(f"ball{k}", (0.3 * k, y), mass=1.0, inertia=0.01) for k, y in enumerate(heights(count))]
     contacts = tuple(

@@ -113,7 +113,7 @@ def bodies_of(block: Array, rub: int) -> tuple[int, int]:
 
 @jit
 def _exists_open(block: Array, contact: int) -> bool:
-    """Whether a contact is open, enabled, one-sided, and bound to what it may strike."""
+    """Return whether a contact is open, enabled, one-sided, and bound to what it may strike."""
     table = Contacts(block)
     exists = table.mode[contact] == codes.OPEN and table.value[contact, codes.ENABLED] > 0.5
     return bool(exists and table.function[contact] == codes.NONE and not is_free(block, contact))
@@ -129,7 +129,7 @@ def _touches(block: Array, at: Pose, contact: int) -> bool:
 
 @jit
 def _closes_now(block: Array, at: Pose, contact: int) -> bool:
-    """Whether an open contact closes at this instant, as closely as instants of events are found."""
+    """Return whether an open contact closes at this instant, as closely as instants of events are found."""
     keep_small()
     searched = is_free(block, contact) and Contacts(block).value[contact, codes.ENABLED] > 0.5
     searched = searched and free_place(block, Contacts(block).group[contact]) == contact

@@ -80,7 +80,7 @@ def undetermined(block: Array, at: Pose) -> int:
 
 @jit
 def _may_share(block: Array) -> bool:
-    """Whether a contact or joint slips."""
+    """Return whether a contact or joint slips."""
     keep_small()
     some = False
     for k in range(Sizes(block).contacts + Sizes(block).joints):
@@ -150,7 +150,7 @@ def _mark_never(block: Array, count: int) -> int:
 
 @jit
 def _can_press(block: Array, contact: int) -> bool:
-    """Whether there are admissible shares by which a contact without force presses."""
+    """Return whether there are admissible shares by which a contact without force presses."""
     keep_small()
     mark = Strikes(block).closed
     place = Contacts(block).row
@@ -188,7 +188,7 @@ def _first_that_moves(block: Array, count: int) -> int:
 
 @jit
 def _moves(block: Array, row: int, count: int) -> bool:
-    """Whether the share of the multiplier of a row that is free changes accelerations, by friction."""
+    """Return whether the free share of a row's multiplier changes accelerations, by friction."""
     keep_apart()
     if not _change_shares(block, row, count, Loads(block).last_multiplier):
         return False

@@ -91,14 +91,14 @@ def _condition(block: Array, n: int, length: float, rate: float) -> float:
 
 @jit
 def beyond(block: Array, at: Pose, n: int) -> float:
-    """How far a threshold is on its side of the present step; below zero where it has come over."""
+    """Return the distance of a threshold from zero on the present side; negative where it has crossed."""
     value = threshold_value(block, at, n)
     return value if Thresholds(block).side[n] > 0 else -value
 
 
 @jit
 def is_watched(block: Array, n: int) -> bool:
-    """Whether a threshold has a side, and counts: the force of a one-sided spring does not where its stretch is not."""
+    """Return whether a threshold has a side and counts, which the force of a slack one-sided spring does not."""
     table = Thresholds(block)
     if table.side[n] == codes.UNDECIDED:
         return False

@@ -63,7 +63,7 @@ def passed_threshold(block: Array) -> int:
 
 @jit
 def _spare(block: Array, at: Pose, n: int) -> float:
-    """How far a threshold is on its side beyond its rounding: above zero, also at zero."""
+    """Return the distance of a threshold from zero on its side, plus its rounding: positive, also at zero."""
     value = beyond(block, at, n)
     return float(value + Thresholds(block).rounding[n] + _ABOVE_ZERO)
 

@@ -1,4 +1,4 @@
-"""Where thresholds of forces come to zero within a step: the step ends there, and no force is strided over.
+"""Search for zeros of the thresholds of forces within a step: the step ends there, and no force is strided over.
 
 Each threshold is looked at along the dense output of the step. One of three looks that is below both others brackets a
 dip, and so does a fall or rise right at an end of the step; a search for its lowest point tells whether it comes to
@@ -69,7 +69,7 @@ def first_crossing(block: Array, latest: float) -> tuple[int, float]:
 
 @jit
 def _fraction(look: int) -> float:
-    """Where in a step a look is: at its ends, next to them, and in equal parts."""
+    """Return the fraction of a step at which a look is: at its ends, next to them, and in equal parts."""
     if look == 0:
         return 0.0
     if look == 1:
@@ -88,7 +88,7 @@ def _place_at(block: Array, fraction: float) -> Pose:
 
 @jit
 def _zero_between(block: Array, n: int, earlier: float, before: float, after: float) -> float:
-    """Where a threshold comes to zero between the last three looks; 2.0 when it does not."""
+    """Return where a threshold comes to zero between the last three looks; 2.0 when it does not."""
     keep_small()
     table = Thresholds(block)
     first, last, value = table.looks[n, 0], table.looks[n, 1], table.looks[n, 2]
@@ -111,7 +111,7 @@ def _zero_between(block: Array, n: int, earlier: float, before: float, after: fl
 
 @jit
 def _look(block: Array, n: int, fraction: float) -> float:
-    """How far a threshold is on its side at a fraction of the step, above its rounding."""
+    """Return the distance of a threshold from zero on its side at a fraction of the step, less its rounding."""
     value = beyond(block, _place_at(block, fraction), n)
     return float(value + Thresholds(block).rounding[n])
 

@@ -1,4 +1,4 @@
-"""At how many places two outlines can touch at once: counted from their shapes, so that nobody has to.
+"""Count of the places at which two outlines can touch at once, from their shapes.
 
 An outline falls into runs between the corners and arcs where it is hollow; two convex runs touch at one point or along
 one line, which has two ends. Along the outlines of two bodies that touch, the places of one follow each other in the
@@ -89,7 +89,7 @@ def _run_count(outline: Outline, is_alone: bool) -> int:
 
 
 def _is_disc(outline: Outline) -> bool:
-    """Whether an outline has no side and no corner on which it could lie flat."""
+    """Return whether an outline has no side and no corner on which it could lie flat."""
     return all(element.bulge > 0 for element in outline.elements) and all(turn <= _SMOOTH for turn in _turns(outline))
 
 
