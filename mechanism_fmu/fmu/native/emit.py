@@ -25,6 +25,8 @@ _WEB_FEATURES = "+bulk-memory,+mutable-globals,+nontrapping-fptoint,+sign-ext"
 
 #: Modules of the engine whose functions every evaluation runs through some hundred times: in place of their calls.
 _IN_PLACE = ("vectors", "constraints.entries", "stepping.runge_kutta", "dynamics.minimum_norm")
+#: The same of the module of pages, which each page loads.
+_IN_PLACE_OF_WEB = ("stepping.runge_kutta",)
 
 #: What runs once in a step, or on few numbers only: rather short than fast.
 _SHORT = (
@@ -82,13 +84,13 @@ def object_file(bitcode: bytes, target: Target) -> bytes:
             symbol.visibility = "hidden"  # several FMUs in one process must not see each other's engine
         elif not symbol.is_declaration:
             symbol.linkage = "private"  # as internal, and without a name: 20 kB of the FMU
-    _say_how(module, _IN_PLACE[1:3] if target is WEB else _IN_PLACE)
+    _say_how(module, _IN_PLACE_OF_WEB if target is WEB else _IN_PLACE)
     # The first, cheap pass shows which calls never report an error; the second leaves nothing of reporting them. With
     # LLVM's own threshold of 225 in the first, and nothing said of any function, it is 10 % longer, and no faster.
     for level in (1, 3):
         tuning = llvm.create_pipeline_tuning_options(speed_level=level)
         tuning.loop_interleaving = False  # the engine's loops go over a handful of rows
-        tuning.loop_unrolling = target is not WEB  # which is to be loaded with each page
+        tuning.loop_unrolling = target is not WEB  # of which a page loads every byte
         tuning.inlining_threshold = 50
         passes = llvm.create_pass_builder(machine, tuning)
         passes.getModulePassManager().run(module, passes)
