@@ -31,7 +31,7 @@ def derivative(block: Array, y: Array, dy: Array) -> Pose:
     n = Sizes(block).coordinates
     at = place_bodies(block, y)
     count = active_rows(block, at)
-    stabilise(block, count)
+    stabilise(block, y, count)
     given, lost = apply_forces(block, at, y, dy)
     accelerate(block, count)
     if rubs(block):
