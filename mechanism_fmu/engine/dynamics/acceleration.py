@@ -97,6 +97,24 @@ LEAST_DRIFT = 1e-14
 
 
 @jit
+def close_again(block: Array, y: Array, count: int) -> None:
+    """Close the `count` active rows at `y`, shape (unknowns,), with the factors of the last evaluation.
+
+    That evaluation was at `y`. What is off by d is off by d^2 afterwards; multipliers are lost.
+    """
+    keep_small()
+    n = Sizes(block).coordinates
+    root = Bodies(block).inverse_root_mass
+    system = LinearSystem(block)
+    for first in (0, n):
+        for r in range(count):
+            system.right_side[r] = -(Rows(block).residual[r] if first == 0 else Rows(block).residual_rate[r])
+        solve_again(block, count, n)
+        for k in range(n):
+            y[first + k] += root[k] * system.solution[k]
+
+
+@jit
 def mend(block: Array, most: float, most_rate: float) -> bool:
     """Close the active rows at y_end when one is off by more than `most`, or its rate; whether anything was moved."""
     return close_rows(block, Course(block).y_end, most, most_rate)
