@@ -7,29 +7,29 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, Implicit, LinearSystem, Rows, Stages
+from ...tables.motion import Course, Implicit, LinearSystem, Stages
 from ...tables.parts import Contacts, Options, Thresholds
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
-from ..constraints.rows import row_count
 from ..contacts.binding import deepest_overlap
 from ..contacts.inside import blame, is_one_inside
 from ..contacts.transition import release
-from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative, mend
+from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from ..vectors import clear, copy, largest
+from ..vectors import clear, copy
+from .closing import closes_step
 from .crossing import first_crossing, refine_crossing
 from .events import comes_down_beside, first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
 from .meeting import refine_end
 from .passing import NEARER, PASSED, ahead, pass_over, passes
 from .runge_kutta import try_step
-from .singular import independence, is_singular, keep_independence
+from .singular import is_singular, keep_independence
 from .step_size import accurate_step, smallest_step, why_no_step
 from .stiffness import choose_method
 
@@ -38,11 +38,6 @@ from .stiffness import choose_method
 #: A contact force below this pulls [N]; rounding leaves about 1e-13.
 _PULLS_BELOW = -1e-9
 _BISECTIONS = 50
-
-#: Rows that have drifted by less than so many times `MOST_DRIFT` are closed by one correction, and no further look.
-_NEAR = 1e3
-#: Where the square of the sine by which rows depend on each other is above this.
-_INDEPENDENT = 1e-6
 
 
 @jit
@@ -252,25 +247,6 @@ def _keep(block: Array, start: float, step: float) -> None:
 
 
 @jit
-def _closes_by_last_factors(block: Array) -> bool:
-    """Whether one correction by the factors of the last evaluation, which was at the step's end, closes the rows.
-
-    Not where Baumgarte's gains bring them back, where they have drifted far, depend on each other, or turn about points
-    of contact, and not if something else has been evaluated since.
-    """
-    keep_small()
-    settings = Options(block).settings
-    drift = Stages(block).drift
-    count = row_count(block)
-    if settings[codes.BAUMGARTE_ALPHA] != 0.0 or settings[codes.BAUMGARTE_BETA] != 0.0 or Sizes(block).alphas > 0:
-        return False
-    if Course(block).counters[codes.IMPLICIT] == 1 or not independence(block) > _INDEPENDENT:
-        return False
-    stands = largest(Rows(block).residual, count) == drift[0] and largest(Rows(block).residual_rate, count) == drift[1]
-    return bool(stands and drift[0] < _NEAR * MOST_DRIFT and drift[1] < _NEAR * MOST_RATE_DRIFT)
-
-
-@jit
 def _mend_and_check(block: Array) -> int:
     """After a step: bring back what has drifted, and look whether profiles still fit; return a status."""
     keep_small()
@@ -278,12 +254,8 @@ def _mend_and_check(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     drift = Stages(block).drift
     drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT)
-    if _closes_by_last_factors(block):
-        if drift[0] > 0.0 or drift[1] > 0.0:
-            n = Sizes(block).coordinates
-            close_again(block, now.y_end, row_count(block))
-            copy(now.y_end[n : 2 * n], now.dy_end[:n])
-    elif (drifted or Sizes(block).alphas > 0) and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+    mends = not closes_step(block) and (drifted or Sizes(block).alphas > 0)
+    if mends and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
     if Sizes(block).outlines > 0:
         contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
