@@ -7,16 +7,16 @@ With t from 0 to 1 over the step and r = 1 - t,
 in which d0 to d3 are the cubic through values and slopes at both ends of the step (Hermite), and each row beyond adds a
 degree, by weights of the method: the form of Hairer's CONTD5 and CONTD8 (Solving ODEs I, II.6).
 
-Coordinates have accelerations at both ends, too. The quintic through places, rates and accelerations is ten times as
-close, and rates are its derivative. Where Baumgarte's gains bring drift back, as in the paper's models, the method's
-own weights are kept.
+Coordinates have accelerations at both ends, too. The quintic through places, rates and accelerations is closer where
+steps are of order 5, by ten times and more. Where Baumgarte's gains bring drift back, as in the paper's models, the
+method's own weights are kept.
 """
 
 from __future__ import annotations
 
 from .. import codes
 from ..tables.declare import Array
-from ..tables.method import CUBIC_ROWS, METHOD
+from ..tables.method import CUBIC_ROWS, METHOD, QUINTIC_ROWS
 from ..tables.motion import Loads, Stages
 from ..tables.parts import Options
 from ..tables.sizes import Sizes
@@ -27,7 +27,8 @@ _LAST = METHOD.last
 _ROWS = METHOD.dense_rows
 _DENSE = METHOD.dense
 _OWN_ROWS = CUBIC_ROWS + len(_DENSE)
-_RESULT = METHOD.a[METHOD.last]
+#: Whether coordinates are on quintics.
+QUINTIC = _ROWS >= QUINTIC_ROWS
 #: What has come by no more than this part of the way that forces alone would have taken a body stands.
 _STANDS = 4e-15
 
@@ -48,8 +49,8 @@ def write_dense(block: Array, h: float) -> None:
     k = s.derivatives
     dense = s.new_dense
     first = 0
-    if not has_gains(block):
-        first = 2 * Sizes(block).coordinates
+    if QUINTIC and not has_gains(block):
+        first = Sizes(block).coordinates
         write_motion(block, h, s.y_new, dense)
     for i in range(first, n):
         change = s.y_new[i] - s.y_start[i]
@@ -70,7 +71,7 @@ def write_dense(block: Array, h: float) -> None:
 
 @jit
 def write_motion(block: Array, h: float, y: Array, dense: Array) -> None:
-    """Coefficients of coordinates and rates in the step of size `h` [s] from y_start to `y`, near y_new, in `dense`."""
+    """Coefficients of the coordinates in the step of size `h` [s] from y_start to `y`, near y_new, in `dense`."""
     keep_apart()
     n = Sizes(block).coordinates
     s = Stages(block)
@@ -97,19 +98,6 @@ def write_motion(block: Array, h: float, y: Array, dense: Array) -> None:
         if abs(change) <= least and abs(begins) <= least and abs(ends) <= least:  # what holds it leaves rounding
             for row in range(2, _ROWS):
                 dense[row, i] = 0.0
-        mean = (y[i] - s.y_new[i]) / h
-        for j in range(_LAST):
-            if _RESULT[j] != 0.0:
-                mean += _RESULT[j] * k[j, i]
-        change = y[n + i] - s.y_start[n + i]
-        bend = h * k[0, n + i] - change
-        last = change - h * k[_LAST, n + i] - bend
-        dense[0, n + i] = s.y_start[n + i]
-        dense[1, n + i] = change
-        dense[2, n + i] = bend
-        dense[3, n + i] = last
-        dense[4, n + i] = 30.0 * (mean - s.y_start[n + i]) - 15.0 * change - 5.0 * bend - 2.5 * last
-        dense[5, n + i] = 0.0
 
 
 @jit

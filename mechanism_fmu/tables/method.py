@@ -67,7 +67,7 @@ class Method:
     @property
     def dense_rows(self) -> int:
         """How many coefficients the dense output has for each unknown."""
-        return max(CUBIC_ROWS + len(self.dense), QUINTIC_ROWS)
+        return max(CUBIC_ROWS + len(self.dense), QUINTIC_ROWS if self.order >= QUINTIC_ROWS - 1 else 0)
 
     @property
     def error_exponent(self) -> int:

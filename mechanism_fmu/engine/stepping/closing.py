@@ -10,7 +10,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative
-from ..interpolation import has_gains, write_motion
+from ..interpolation import QUINTIC, has_gains, write_motion
 from ..profiles.nearest import settle_contact_points
 from ..vectors import copy, largest
 from .singular import independence
@@ -38,11 +38,13 @@ def closes_step(block: Array) -> bool:
         derivative(block, now.y_end, now.dy_end)  # something else has been evaluated since
     if not independence(block) > _INDEPENDENT:
         return False
-    if drift[0] > 0.0 or drift[1] > 0.0:
+    closes = drift[0] > 0.0 or drift[1] > 0.0
+    if closes:
         n = Sizes(block).coordinates
         close_again(block, now.y_end, count)
         copy(now.y_end[n : 2 * n], now.dy_end[:n])
-        if Sizes(block).alphas > 0:
-            settle_contact_points(block, place_bodies(block, now.y_end), now.y_end)
+    if Sizes(block).alphas > 0:
+        settle_contact_points(block, place_bodies(block, now.y_end), now.y_end)
+    if QUINTIC and closes:
         write_motion(block, now.clock[codes.STEP_SIZE], now.y_end, now.dense)
     return True

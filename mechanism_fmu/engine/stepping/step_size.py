@@ -18,6 +18,7 @@ from ..elementary import power
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
 from ..profiles.shape import passes_join
+from ..vectors import dot
 from .reach import IN_LINE, is_out_of_reach
 from .runge_kutta import scaled_error, try_step
 from .singular import independence
@@ -181,7 +182,8 @@ def why_no_step(block: Array) -> int:
         at = place_bodies(block, s.y_start)
         if not least_fit(block, at) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
-    if independence(block) < IN_LINE:
+    numbers = abs(dot(s.y_new, s.y_new, s.y_new.shape[0])) < math.inf
+    if numbers and independence(block) < IN_LINE:
         return status.OUT_OF_REACH if is_out_of_reach(block) else status.SINGULAR
     return status.STEP_TOO_SMALL
 
