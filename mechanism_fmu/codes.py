@@ -312,3 +312,10 @@ COUNTERS_LENGTH = 30
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts
 LEDGER_LENGTH = 1
+
+# columns of the state's scales (`engine.scales`)
+SCALE_LENGTH = 0
+SCALE_MASS = 1
+SCALE_RATE = 2  # from the start; 0 as long as nothing acts and nothing moves
+SCALE_PRESENT = 3  # the rate by what acts since the last event
+SCALES = 4

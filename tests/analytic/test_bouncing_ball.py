@@ -11,6 +11,8 @@ from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import STICK_SPEED
 
 GRAVITY = 9.81
+#: Of a ball with a radius of gyration of 1 m that falls, over what has scale 1 (`dynamics.scaling`).
+SPEED_SCALE = math.sqrt(GRAVITY) / (0.07634615877076063 * 1.2190829483452197)
 
 
 def ball(restitution, *, height=1.0, mass=1.0, tolerance=1e-12, contacts=1):
@@ -38,7 +40,7 @@ def bounces(height, restitution):
     speed = math.sqrt(2 * GRAVITY * height)
     time = speed / GRAVITY
     found = [(time, speed)]
-    while restitution * speed >= STICK_SPEED:
+    while restitution * speed >= SPEED_SCALE * STICK_SPEED:
         speed *= restitution
         time += 2 * speed / GRAVITY
         found.append((time, speed))

@@ -16,6 +16,7 @@ from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import BRAKE, rubs
 from ..dynamics.islands import leader_of
 from ..outlines.nearest import FREE, look_no_deeper, nearest
+from ..scales import contact_unit, length_scale, present_rate, rate_scale
 from .binding import free_place, is_free, let_loose, take_found
 from .guards import gap
 
@@ -124,7 +125,7 @@ def _touches(block: Array, at: Pose, contact: int) -> bool:
     keep_small()
     if Contacts(block).mode[contact] == codes.CLOSED:
         return True
-    return _exists_open(block, contact) and gap(block, at, contact)[0] <= TOUCHES_WITHIN
+    return _exists_open(block, contact) and gap(block, at, contact)[0] <= TOUCHES_WITHIN * contact_unit(block, contact)
 
 
 @jit
@@ -134,13 +135,14 @@ def _closes_now(block: Array, at: Pose, contact: int) -> bool:
     searched = is_free(block, contact) and Contacts(block).value[contact, codes.ENABLED] > 0.5
     searched = searched and free_place(block, Contacts(block).group[contact]) == contact
     if searched:
-        if nearest(block, at, contact, FREE) > TOUCHES_WITHIN:
+        if nearest(block, at, contact, FREE) > TOUCHES_WITHIN * length_scale(block):
             return False
         take_found(block, contact)
     closes = False
     if _exists_open(block, contact):
         distance, rate = gap(block, at, contact)
-        closes = distance <= -ROOT_TOLERANCE * rate and rate < -RESTS_BELOW
+        closes = distance <= -ROOT_TOLERANCE / rate_scale(block) * rate
+        closes = closes and rate < -RESTS_BELOW * contact_unit(block, contact) * present_rate(block)
     if searched:
         let_loose(block, contact)
     return closes

@@ -11,6 +11,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
+from ..scales import friction_unit, present_rate
 from .participation import island_of
 
 
@@ -38,9 +39,10 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, leas
     keep_small()
     table = Rubs(block)
     spare = spare_row(block)
+    scale = present_rate(block)
     slips_above = max(SLIPS_ABOVE, least)
     if Course(block).counters[codes.PILE] >= PILED:
-        slips_above = SLIPS_WHERE_PILED
+        scale *= SLIPS_WHERE_PILED / SLIPS_ABOVE
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
@@ -56,7 +58,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, leas
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
         drifts = not begins or let_go
-        if abs(speed) > (max(slips_above, STUCK_BELOW) if drifts else slips_above) and k != stopped:
+        rests_below = max(slips_above * scale, STUCK_BELOW * present_rate(block)) if drifts else slips_above * scale
+        if abs(speed) > rests_below * friction_unit(block, k) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

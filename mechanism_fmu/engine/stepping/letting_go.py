@@ -10,7 +10,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
 from ...tables.motion import Rows, Rubs, Stages
-from ...tables.parts import Contacts, Options
+from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_small
@@ -19,11 +19,13 @@ from ..constraints.friction_rows import friction_row, rubs, sticks
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
+from ..contacts.complementarity import hold_ratio, push_ratio
 from ..contacts.guards import can_open
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
+from ..dynamics.rounding import note_level
 from ..interpolation import interpolate
+from ..scales import rate_scale
 from .looks import falling
 from .runge_kutta import try_step
 
@@ -59,9 +61,10 @@ def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
     interpolate(s.new_dense, fraction, s.y_at)
     set_time(block, s.tried[0] + fraction * s.tried[1])
     derivative(block, s.y_at, s.dy_at)
+    note_level(block, row_count(block))
     if guard == codes.GUARD_PUSH:
-        return push_ratio(block, subject, push_tolerance(block, row_count(block)))
-    return hold_ratio(block, subject, push_tolerance(block, row_count(block)))
+        return push_ratio(block, subject)
+    return hold_ratio(block, subject)
 
 
 # a force goes on smoothly: no bisection among the false positions
@@ -166,7 +169,8 @@ def refine_push(block: Array, contact: int, step_size: float) -> float:
     size = step_size
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, size)
-        value = push_ratio(block, contact, push_tolerance(block, row_count(block)))
+        note_level(block, row_count(block))
+        value = push_ratio(block, contact)
         if not _OPENS < value < pushed:
             return size
         move = (value - _LETS_GO) * (size - before) / (pushed - value)
@@ -196,7 +200,7 @@ def refine_slip(block: Array, rub: int, step_size: float) -> float:
         if rate == 0.0:
             return step_size
         move = -row.residual_rate[spare] / rate
-        if not abs(move) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+        if not abs(move) * rate_scale(block) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
             return step_size
         step_size += move
     try_step(block, start, step_size)
@@ -227,7 +231,7 @@ def refine_hold(block: Array, rub: int, step_size: float) -> float:
         move = value * (size - before) / (held - value)
         if not abs(size + move - step_size) <= _MISPLACED * step_size:
             break
-        if abs(move) <= ROOT_TOLERANCE:
+        if abs(move) * rate_scale(block) <= ROOT_TOLERANCE:
             return size
         before = size
         held = value
@@ -239,16 +243,10 @@ def refine_hold(block: Array, rub: int, step_size: float) -> float:
 
 @jit
 def _hold_behind(block: Array, rub: int) -> float:
-    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried.
-
-    Without Baumgarte's gains: drift there, which is projected behind the step, would count as a force.
-    """
+    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried."""
     keep_small()
     s = Stages(block)
-    settings = Options(block).settings
-    alpha, beta = settings[codes.BAUMGARTE_ALPHA], settings[codes.BAUMGARTE_BETA]
-    settings[codes.BAUMGARTE_ALPHA] = settings[codes.BAUMGARTE_BETA] = 0.0
     set_time(block, s.tried[0] + s.tried[1])
     derivative(block, s.y_new, s.dy_at)
-    settings[codes.BAUMGARTE_ALPHA], settings[codes.BAUMGARTE_BETA] = alpha, beta
-    return hold_ratio(block, rub, push_tolerance(block, row_count(block)))
+    note_level(block, row_count(block))
+    return hold_ratio(block, rub)

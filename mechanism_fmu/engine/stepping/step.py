@@ -22,6 +22,7 @@ from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
+from ..scales import contact_unit, force_scale, length_scale, rate_scale
 from ..vectors import clear, copy, largest
 from .crossing import first_crossing, refine_crossing
 from .events import comes_down_beside, first_event, refine
@@ -35,7 +36,7 @@ from .stiffness import choose_method
 
 # When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing.
 
-#: A contact force below this pulls [N]; rounding leaves about 1e-13.
+#: A contact force below this pulls, in the scale of the mechanism; rounding leaves about 1e-13.
 _PULLS_BELOW = -1e-9
 _BISECTIONS = 50
 
@@ -46,6 +47,11 @@ _INDEPENDENT = 1e-6
 
 
 @jit
+def _pulls_below(block: Array, contact: int) -> float:
+    return _PULLS_BELOW * force_scale(block) * length_scale(block) / contact_unit(block, contact)
+
+
+@jit
 def watch_at(block: Array, time: float) -> None:
     """Note `time` for every contact that pulls for the first time, by the multipliers of the last acceleration."""
     keep_small()
@@ -53,7 +59,7 @@ def watch_at(block: Array, time: float) -> None:
     system = LinearSystem(block)
     for c in range(table.mode.shape[0]):
         held = table.mode[c] == codes.CLOSED and table.value[c, codes.GUIDED] > 0.5
-        pulls = held and system.multiplier[table.row[c]] < _PULLS_BELOW
+        pulls = held and system.multiplier[table.row[c]] < _pulls_below(block, c)
         if pulls and table.pull_time[c] == math.inf:
             table.pull_time[c] = time
             Course(block).counters[codes.COUNT_PULLS] += 1
@@ -78,6 +84,7 @@ def _locate(block: Array, contact: int) -> float:
     table = Contacts(block)
     now = Course(block)
     s = Stages(block)
+    limit = _pulls_below(block, contact)
     before = 0.0
     after = 1.0
     for _ in range(_BISECTIONS):
@@ -85,7 +92,7 @@ def _locate(block: Array, contact: int) -> float:
         interpolate(now.dense, middle, s.y_at)
         set_time(block, now.clock[codes.STEP_START] + middle * now.clock[codes.STEP_SIZE])
         derivative(block, s.y_at, s.dy_at)
-        if LinearSystem(block).multiplier[table.row[contact]] < _PULLS_BELOW:
+        if LinearSystem(block).multiplier[table.row[contact]] < limit:
             after = middle
         else:
             before = middle
@@ -130,14 +137,14 @@ def take_step(block: Array) -> int:
         _refuse(block, wanted, method)
         is_one_inside(block)
         return status.PENETRATED
-    hops = 0.5 * fraction * step > smallest_step(start) and comes_down_beside(block, guard, subject, fraction)
+    hops = 0.5 * fraction * step > smallest_step(block, start) and comes_down_beside(block, guard, subject, fraction)
     if hops:  # at the top of its hop it is let loose, and what is below is looked for
         guard = codes.GUARD_NONE
         subject = codes.NONE
         fraction *= 0.5
     if ends or hops:
         step *= fraction
-        if step > smallest_step(start):
+        if step > smallest_step(block, start):
             if crossing != codes.NONE:
                 step = refine_crossing(block, crossing, step)
             else:
@@ -241,7 +248,9 @@ def _keep(block: Array, start: float, step: float) -> None:
     now.clock[codes.STEP_START] = start
     now.clock[codes.STEP_SIZE] = step
     now.clock[codes.STEP_END] = start + step
-    if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(start):
+    if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(
+        block, start
+    ):
         now.clock[codes.STEP_END] = now.clock[codes.RAMP_END]
     copy(s.y_new, now.y_end)
     copy(s.derivatives[_LAST], now.dy_end)
@@ -277,7 +286,7 @@ def _mend_and_check(block: Array) -> int:
     now = Course(block)
     set_time(block, now.clock[codes.STEP_END])
     drift = Stages(block).drift
-    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT)
+    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT * rate_scale(block))
     if _closes_by_last_factors(block):
         if drift[0] > 0.0 or drift[1] > 0.0:
             n = Sizes(block).coordinates

@@ -18,6 +18,7 @@ from ..elementary import power
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
 from ..profiles.shape import passes_join
+from ..scales import rate_scale
 from .reach import IN_LINE, is_out_of_reach
 from .runge_kutta import scaled_error, try_step
 from .singular import independence
@@ -100,7 +101,7 @@ def _periods_before(block: Array, number: int, start: float) -> float:
 # The size of a step: as long as its error allows, and no longer than what may happen within it.
 
 _ERROR_EXPONENT = METHOD.error_exponent
-#: Smallest step as a fraction of max(1 s, |t|).
+#: Smallest step as a fraction of the mechanism's time, or of |t| if that is more.
 _SMALLEST_STEP = 1e-15
 #: Where there are guards or thresholds, no body turns further than this in one step [rad]: a step without error may be
 #: of any length, and would pass over what a turning point meets in every turn.
@@ -129,7 +130,7 @@ def accurate_step(block: Array, start: float) -> float:
     now = Course(block)
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     if now.counters[codes.IMPLICIT] == 1:  # what a first step is guessed from may be what is stiff
-        wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(start))
+        wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(block, start))
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
     error = _try(block, start, step)
@@ -139,18 +140,15 @@ def accurate_step(block: Array, start: float) -> float:
         tried = step
         step = representable(start, step * scale_of_step(error, 1.0))
         grow_most = 1.0
-        if not step > smallest_step(start):
-            if (
-                error < math.inf
-                and Sizes(block).alphas > 0
-                and passes_join(block, Stages(block).y_start, Stages(block).y_new)
-            ):
+        if not step > smallest_step(block, start):
+            joins = error < math.inf and Sizes(block).alphas > 0
+            if joins and passes_join(block, Stages(block).y_start, Stages(block).y_new):
                 step = tried  # the curvature jumps there, and with it accelerations: rates by no more than rounding
                 error = 1.0
                 break
             if not is_beyond_explicit(block):
                 return 0.0
-            step = representable(start, _FIRST_IMPLICIT * smallest_step(start))
+            step = representable(start, _FIRST_IMPLICIT * smallest_step(block, start))
         error = _try(block, start, step)
     look_stiff(block)
     now.clock[codes.NEXT_STEP] = step * scale_of_step(error, grow_most)
@@ -160,9 +158,9 @@ def accurate_step(block: Array, start: float) -> float:
 
 
 @jit
-def smallest_step(start: float) -> float:
+def smallest_step(block: Array, start: float) -> float:
     """The size that a step from `start` [s] must exceed [s]."""
-    return _SMALLEST_STEP * max(1.0, abs(start))
+    return _SMALLEST_STEP * max(1.0 / rate_scale(block), abs(start))
 
 
 @jit
