@@ -30,7 +30,7 @@ def part_all(block: Array) -> None:
 def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, least: float) -> None:
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
-    At rest is what slips no faster than `SLIPS_ABOVE`, than `least` [m/s, rad/s], or, where it sticks, than its row may
+    At rest is what slips no faster than `SLIPS_ABOVE`, than `least`, or, where it sticks, than its row may
     drift; and `stopped`, whose slip has just been found to end, whatever speed the instant's rounding leaves. It is
     taken to stick, unless it has just let go: then its row may have drifted, too, and the sign of that speed says
     nothing of where it will slip. Where it has not stuck before, it does so here. What takes no part in the event stays
@@ -39,10 +39,9 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, leas
     keep_small()
     table = Rubs(block)
     spare = spare_row(block)
-    scale = present_rate(block)
     slips_above = max(SLIPS_ABOVE, least)
     if Course(block).counters[codes.PILE] >= PILED:
-        scale *= SLIPS_WHERE_PILED / SLIPS_ABOVE
+        slips_above = SLIPS_WHERE_PILED
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
@@ -58,8 +57,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, leas
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
         drifts = not begins or let_go
-        rests_below = max(slips_above * scale, STUCK_BELOW * present_rate(block)) if drifts else slips_above * scale
-        if abs(speed) > rests_below * friction_unit(block, k) and k != stopped:
+        rests_below = max(slips_above, STUCK_BELOW) if drifts else slips_above
+        if abs(speed) > rests_below * friction_unit(block, k) * present_rate(block) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

@@ -50,7 +50,8 @@ def _part(block: Array, row: int, part: float) -> float:
     """A part of the acceleration along a row by what acts, and the rounding of the last solve."""
     rate = present_rate(block)
     own = row_unit(block, row) * rate * rate
-    return part * own + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
+    rounding: float = part * own + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
+    return rounding
 
 
 @jit
@@ -64,7 +65,8 @@ def speed_rounding(block: Array, row: int, size: float) -> float:
         first = 3 * Rows(block).body[row, end]
         for k in range(first, min(first + 3, n)):
             size += abs(entry[k] * Course(block).y_end[n + k])
-    return SPEEDS_SHARE * size + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
+    rounding: float = SPEEDS_SHARE * size + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
+    return rounding
 
 
 @jit

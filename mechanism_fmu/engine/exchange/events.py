@@ -28,8 +28,9 @@ from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_position
 from ..dynamics.forces import inputs_changed, take_inputs
 from ..dynamics.thresholds import change_sides
 from ..outlines.nearest import MEETS, look_no_deeper, nearest
+from ..profiles.curves import left_to_piece
 from ..scales import contact_unit, present_rate
-from ..stepping.step_size import left_to_piece, smallest_step
+from ..stepping.step_size import smallest_step
 from ..stepping.stepper import restart
 from ..vectors import clear, copy
 from .completed_step import look_through, note, set_clock

@@ -24,10 +24,10 @@ from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations
 from ..dynamics.scaling import note_rate, note_sizes
 from ..dynamics.thresholds import clear_sides
+from ..profiles.curves import within_motions
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..scales import contact_unit, largest_off, present_rate
-from ..stepping.step_size import within_motions
 from ..vectors import clear
 from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, start_rates
 

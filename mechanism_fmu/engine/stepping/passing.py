@@ -26,13 +26,14 @@ from ..constraints.rows import row_count
 from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
+from ..profiles.curves import within_motions
 from ..scales import largest_off, unknown_scale
 from ..vectors import clear, copy
 from .events import first_event
 from .runge_kutta import ABSOLUTE_FRACTION, try_step
 from .singular import SINGULAR_BELOW, independence, least_independence
 from .stage import note_pushes
-from .step_size import scale_of_step, smallest_step, within_motions, within_ramp
+from .step_size import scale_of_step, smallest_step, within_ramp
 
 _LAST = METHOD.last
 _BEFORE_LAST = METHOD.interior[-1]

@@ -22,8 +22,8 @@ from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from ..scales import contact_unit, force_scale, length_scale, rate_scale
-from ..vectors import clear, copy, largest
+from ..scales import contact_unit, force_scale, largest_off, length_scale, rate_scale
+from ..vectors import clear, copy
 from .crossing import first_crossing, refine_crossing
 from .events import comes_down_beside, first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
@@ -275,8 +275,10 @@ def _closes_by_last_factors(block: Array) -> bool:
         return False
     if Course(block).counters[codes.IMPLICIT] == 1 or not independence(block) > _INDEPENDENT:
         return False
-    stands = largest(Rows(block).residual, count) == drift[0] and largest(Rows(block).residual_rate, count) == drift[1]
-    return bool(stands and drift[0] < _NEAR * MOST_DRIFT and drift[1] < _NEAR * MOST_RATE_DRIFT)
+    stands = largest_off(block, Rows(block).residual, count) == drift[0]
+    stands = stands and largest_off(block, Rows(block).residual_rate, count) == drift[1]
+    most_rate = _NEAR * MOST_RATE_DRIFT * rate_scale(block)
+    return bool(stands and drift[0] < _NEAR * MOST_DRIFT and drift[1] < most_rate)
 
 
 @jit
