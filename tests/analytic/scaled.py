@@ -180,7 +180,9 @@ def compare(given: Mechanism, scales: Scales, until: float, step: float, simulat
         none = (one[name] == -1.0) | (other[name] == -1.0) | (one[name] == FAR)  # no impact yet, nothing to touch
         a = np.where(none, b, a)
         most = largest[one.units[name]] * scales.factor(one.units[name])
-        off = float(np.abs(a - b).max() / max(most, np.finfo(float).tiny))
+        apart = np.abs(a - b)
+        apart[apart < np.finfo(float).tiny] = 0.0  # powers of two round what is less than the least normal number
+        off = float(apart.max() / max(most, np.finfo(float).tiny))
         if off > worst:
             worst, where = off, name
     return worst, where
