@@ -7,7 +7,7 @@ Why each has its value: docs/decisions/005-one-sided-contacts.md, docs/decisions
 """
 
 #: A gap less than this touches; one farther below zero at the start is inside.
-TOUCHES_WITHIN = 1e-9
+TOUCHES_WITHIN = 1e-10
 #: Start rates agree with the joints within this.
 RATES_WITHIN = 1e-9
 #: A touching contact whose gap changes more slowly than this is at rest.
@@ -30,6 +30,8 @@ GAP_NOISE = 1e-12
 DEEPEST = TOUCHES_WITHIN + 2.0 * GAP_NOISE
 #: How far a boundary, a pitch or a limit is passed before it counts.
 MARGIN = 1e-10
+#: How far the end of an element of an outline is passed before a contact goes on to the next one.
+PASSES_BY = 1e-11
 #: The instant of an event is found when one more Newton step would move it by less than this.
 ROOT_TOLERANCE = 1e-13
 #: A force that lacks less than these shares still pushes; it opens at twice that (`engine.dynamics.rounding`): of what

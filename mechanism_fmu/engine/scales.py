@@ -12,7 +12,7 @@ from .. import codes
 from ..tables.declare import Array
 from ..tables.kinds import JOINTS
 from ..tables.motion import Course, Rows
-from ..tables.parts import Contacts, Functions, Joints
+from ..tables.parts import Contacts, Forces, Functions, Joints
 from ..tables.sizes import Sizes
 from .compiler.subset import jit, keep_small
 
@@ -40,9 +40,44 @@ def present_rate(block: Array) -> float:
 
 
 @jit
-def speed_scale(block: Array) -> float:
-    """Speed of the mechanism by what acts since the last event."""
-    return length_scale(block) * present_rate(block)
+def pace_of(block: Array, i: int, j: int) -> float:
+    """One over the time in which two bodies, and what they are joined to, move by what has acted since their event."""
+    rate = _larger(block, i, j, codes.BODY_PACE)
+    return rate if rate > 0.0 else rate_scale(block)
+
+
+@jit
+def extent_of(block: Array, i: int, j: int) -> float:
+    """Length of two bodies, and of what they were joined to at their last event, in units of `dynamics.scaling`."""
+    length = _larger(block, i, j, codes.BODY_EXTENT)
+    return length if length > 0.0 else length_scale(block)
+
+
+@jit
+def _larger(block: Array, i: int, j: int, column: int) -> float:
+    """The larger scale of two bodies, of which one may be the ground."""
+    keep_small()
+    scales = Course(block).body_scales
+    bodies = Sizes(block).bodies
+    most = 0.0
+    if i < bodies:
+        most = scales[i, column]
+    if j < bodies:
+        most = max(most, scales[j, column])
+    return most
+
+
+@jit
+def bodies_of(block: Array, rub: int) -> tuple[int, int]:
+    """The two bodies of friction: of a contact, a joint, or a force element (see `friction_rows`)."""
+    contacts = Sizes(block).contacts
+    if rub < contacts:
+        return Contacts(block).body_i[rub], Contacts(block).body_j[rub]
+    rub -= contacts
+    if rub < Sizes(block).joints:
+        return Joints(block).body_i[rub], Joints(block).body_j[rub]
+    rub -= Sizes(block).joints
+    return Forces(block).body[rub], Forces(block).reaction[rub]
 
 
 @jit
@@ -54,11 +89,28 @@ def force_scale(block: Array) -> float:
 
 @jit
 def contact_unit(block: Array, contact: int) -> float:
-    """Scale of the gap of a contact: a length; 1 of an angle."""
-    kind = Contacts(block).kind[contact]
-    if kind == codes.ANGLE_STOP or kind == codes.ANGLE_LOCK:
+    """Scale of the gap of a contact: a length, of all bodies where outlines are searched; 1 of an angle."""
+    table = Contacts(block)
+    if table.kind[contact] == codes.ANGLE_STOP or table.kind[contact] == codes.ANGLE_LOCK:
         return 1.0
-    return length_scale(block)
+    if table.kind[contact] == codes.OUTLINE:
+        return length_scale(block)
+    return extent_of(block, table.body_i[contact], table.body_j[contact])
+
+
+@jit
+def contact_speed(block: Array, contact: int) -> float:
+    """Scale of the rate at which the gap of a contact changes."""
+    return contact_unit(block, contact) * pace_of(
+        block, Contacts(block).body_i[contact], Contacts(block).body_j[contact]
+    )
+
+
+@jit
+def slip_scale(block: Array, rub: int) -> float:
+    """Scale of the speed at which something with friction slips."""
+    i, j = bodies_of(block, rub)
+    return friction_unit(block, rub) * pace_of(block, i, j)
 
 
 @jit
@@ -67,7 +119,8 @@ def friction_unit(block: Array, rub: int) -> float:
     contacts = Sizes(block).contacts
     joints = Sizes(block).joints
     if rub < contacts or (rub < contacts + joints and Joints(block).kind[rub - contacts] != _REVOLUTE):
-        return length_scale(block)
+        i, j = bodies_of(block, rub)
+        return extent_of(block, i, j)
     return 1.0
 
 
@@ -80,7 +133,7 @@ def row_unit(block: Array, row: int) -> float:
         first = 3 * Rows(block).body[row, end]
         across = max(across, abs(entry[first]), abs(entry[first + 1]))
         along = max(along, abs(entry[first + 2]))
-    return max(along, across * length_scale(block))
+    return max(along, across * extent_of(block, Rows(block).body[row, 0], Rows(block).body[row, 1]))
 
 
 @jit
@@ -119,5 +172,6 @@ def unknown_scale(block: Array, i: int) -> float:
         return 1.0
     if i >= work:
         return force_scale(block) * length_scale(block)
-    unit = 1.0 if i % 3 == 2 else length_scale(block)
+    body = i % n // 3
+    unit = 1.0 if i % 3 == 2 else extent_of(block, body, body)
     return unit * rate_scale(block) if i >= n else unit

@@ -85,10 +85,10 @@ _EVENT = {
 class Course(Table):
     """How far the motion has come.
 
-    Clock, counters, ledger and scales (columns in `codes`); of each body, when its run of events without progress
-    began, and how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end of the engine's
-    own step, and the step's dense output; how independent the active rows are there (see `singular`); the last impact,
-    and impacts and events of the last communication step, in buffers that go round.
+    Clock, counters, ledger, scales, and those of each body (columns in `codes`); when its run of events without
+    progress began, and how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end of the
+    engine's own step, and the step's dense output; how independent the active rows are there (see `singular`); the last
+    impact, and impacts and events of the last communication step, in buffers that go round.
     """
 
     clock = real(codes.CLOCK_LENGTH, holds=_CLOCK)
@@ -96,6 +96,7 @@ class Course(Table):
     ledger = real(codes.LEDGER_LENGTH, holds=FINITE)
     scales = real(codes.SCALES, holds=NOT_NEGATIVE)
     accumulation = real("bodies", 2, holds=FINITE)
+    body_scales = real("bodies", codes.BODY_SCALES, holds=NOT_NEGATIVE)
     y_end = real("unknowns", holds=FINITE)
     dy_end = real("unknowns", holds=ANY)
     dense = real(METHOD.dense_rows, "unknowns", holds=FINITE)
@@ -213,7 +214,7 @@ class Loads(Table):
     `force` acts, and `size` is the sum of its terms' magnitudes; `applied` is its part without friction; `torque` is
     that of each force element on its body, `rubbing` that of the friction in each joint (a force in sliders); the
     accelerations that the forces alone would give; assembly weights; the multipliers of the last round of the friction
-    iteration.
+    iteration; one over the time in which each body moves at an event, and how far all reach, in scale.
     """
 
     force = real("columns", work=True)
@@ -224,6 +225,8 @@ class Loads(Table):
     last_multiplier = real("rows", work=True)
     free_acceleration = real("columns", work=True)
     weight = real("columns", work=True)
+    haste = real("bodies", work=True)
+    reach = real("bodies", work=True)
 
 
 class Stages(Table, prefix="stage_"):

@@ -20,7 +20,7 @@ from ..outlines.nearest import FREE, MEETS, OVERLAP, look_no_deeper, nearest
 from ..scales import length_scale
 
 #: Outlines that reach farther into each other than this do not touch, but overlap, in the scale of lengths.
-OVERLAPS = 1e-9
+OVERLAPS = 1e-10
 
 
 @jit

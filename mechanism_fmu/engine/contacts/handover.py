@@ -25,7 +25,7 @@ from ..outlines.features import (
     radius_of,
     wrapped,
 )
-from ..scales import length_scale, speed_scale
+from ..scales import contact_speed, length_scale
 from .binding import let_loose
 
 
@@ -246,7 +246,7 @@ def _around_corner(block: Array, at: Pose, contact: int, side: int, way: int, co
             outline_row(block, at, contact, spare_row(block), False)
             is_free_place = not _is_bound_twice(block, contact)
             if is_free_place and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN * length_scale(block):
-                if abs(Rows(block).residual_rate[spare_row(block)]) >= RESTS_BELOW * speed_scale(block):
+                if abs(Rows(block).residual_rate[spare_row(block)]) >= RESTS_BELOW * contact_speed(block, contact):
                     table.mode[contact] = codes.OPEN
                     table.touching[contact] = 1
                 return True

@@ -18,7 +18,7 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
 from ..constraints.wear import wear_by_impact
 from ..dynamics.acceleration import LEAST_DRIFT, mend
-from ..scales import contact_unit, present_rate
+from ..scales import contact_speed, contact_unit
 from .guards import gap
 from .impact_laws import exchange
 from .participation import island_of
@@ -103,7 +103,6 @@ def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
     taking_part = Strikes(block)
     plastic = round_ >= _PLASTIC_FROM
     some = False
-    rate_now = present_rate(block)
     piled = Course(block).counters[codes.PILE] >= PILED
     for c in range(table.mode.shape[0]):
         taking_part.role[c] = ABSENT
@@ -120,8 +119,8 @@ def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
             continue
         distance, rate = gap(block, at, c)
         unit = contact_unit(block, c)
-        rests_below = RESTS_BELOW * unit * rate_now
-        sticks_below = STICK_SPEED * unit * rate_now
+        rests_below = RESTS_BELOW * contact_speed(block, c)
+        sticks_below = STICK_SPEED * contact_speed(block, c)
         if switched:
             if closed:
                 taking_part.role[c] = KEPT
@@ -173,7 +172,7 @@ def _open_what_leaves(block: Array) -> None:
         if taking_part.role[c] == KEPT and taking_part.closing[c] == 0.0:
             continue
         contact_row(block, at, c, spare_row(block))
-        if Rows(block).residual_rate[spare_row(block)] < STICK_SPEED * contact_unit(block, c) * present_rate(block):
+        if Rows(block).residual_rate[spare_row(block)] < STICK_SPEED * contact_speed(block, c):
             table.mode[c] = codes.CLOSED
         else:
             table.mode[c] = codes.OPEN

@@ -11,7 +11,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
-from ..scales import friction_unit, present_rate
+from ..scales import slip_scale
 from .participation import island_of
 
 
@@ -58,7 +58,7 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, leas
         speed = Rows(block).residual_rate[spare]
         drifts = not begins or let_go
         rests_below = max(slips_above, STUCK_BELOW) if drifts else slips_above
-        if abs(speed) > rests_below * friction_unit(block, k) * present_rate(block) and k != stopped:
+        if abs(speed) > rests_below * slip_scale(block, k) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

@@ -17,7 +17,7 @@ from ..dynamics.forces import set_time
 from ..dynamics.scaling import note_rate
 from ..dynamics.sliding import can_move
 from ..dynamics.thresholds import decide_sides
-from ..scales import contact_unit, present_rate, rate_scale
+from ..scales import contact_speed, contact_unit, rate_scale
 from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
 from .doubts import record_doubts
@@ -27,7 +27,7 @@ from .handover import hand_over
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, strike
 from .impact_laws import shock
 from .inside import is_one_inside
-from .participation import find_participants, island_of, participants_energy
+from .participation import find_participants, island_of, participants_energy, share_scales
 from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
 from .trial import COUNT
 
@@ -53,7 +53,7 @@ def release(block: Array, struck: int) -> None:
         if _may_have_come_off(table, c, struck):
             distance, rate = gap(block, at, c)
             unit = contact_unit(block, c)
-            if distance > GAP_NOISE * unit or (distance > 0.0 and rate < -RESTS_BELOW * unit * present_rate(block)):
+            if distance > GAP_NOISE * unit or (distance > 0.0 and rate < -RESTS_BELOW * contact_speed(block, c)):
                 table.touching[c] = 0
                 let_loose(block, c)
 
@@ -88,11 +88,13 @@ def transit(block: Array, guard: int, subject: int) -> int:
     note_mode(block, EVENT)
     note_rate(block, 0.0)
     find_participants(block, place_bodies(block, now.y_end), guard, subject)
+    share_scales(block)
     if guard == codes.GUARD_INPUT:
         note_sticks(block)
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
+    share_scales(block)  # with what has joined in
     _note_accumulation(block)
     energy = participants_energy(block)
     work = now.y_end[Sizes(block).y_work]
@@ -164,7 +166,7 @@ def _struck_impulse(block: Array) -> float:
     table = Contacts(block)
     total = 0.0
     for c in range(table.mode.shape[0]):
-        rests_below = RESTS_BELOW * contact_unit(block, c) * present_rate(block)
+        rests_below = RESTS_BELOW * contact_speed(block, c)
         switched_on = table.function[c] != codes.NONE and abs(taking_part.target[c]) > rests_below
         if taking_part.closing[c] > 0.0 or switched_on:
             total += abs(taking_part.impulse[c])
@@ -260,8 +262,8 @@ def _settle(block: Array, guard: int, subject: int) -> int:
                 near = TOUCHES_WITHIN
                 slow = STICK_SPEED
             distance, rate = gap(block, at, c)
-            unit = contact_unit(block, c)
-            if (distance > near * unit and c != fired) or not abs(rate) < slow * unit * present_rate(block):
+            is_near = distance <= near * contact_unit(block, c) or c == fired
+            if not (is_near and abs(rate) < slow * contact_speed(block, c)):
                 continue
             table.mode[c] = codes.CLOSED
         Strikes(block).candidates[count] = c

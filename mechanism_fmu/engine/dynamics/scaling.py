@@ -10,18 +10,20 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Loads, Rows
-from ...tables.parts import Bodies, Outlines
+from ...tables.motion import Course, LinearSystem, Loads, Rows
+from ...tables.parts import Bodies, Contacts, Outlines
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
+from ..vectors import clear
 from .forces import apply_forces
+from .islands import leader_of
 from .own_states import winding_rate
 
 #: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
 #: paper's model; the numbers of `tolerances` are for its size.
-_LENGTH, _RATE, _MASS = 0.07634615877076063, 1.2190829483452197, 5.6264
+LENGTH, _RATE, _MASS = 0.07634615877076063, 1.2190829483452197, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
 #: A radius of gyration counts up to so many times all other lengths: the inertia of what shall not turn is no size.
@@ -32,60 +34,115 @@ _FALLS = 2.0**-10
 
 @jit
 def note_sizes(block: Array) -> None:
-    """Write the scales of length and mass, from the bodies' start, and from the arms of the rows that are active."""
+    """Write the scales of length and mass, from the bodies' start, and from the arms of the rows that are active.
+
+    The length of a body is the largest of its radius of gyration, of its arms, of the radius of its outlines, and of
+    a part of how far it is away, or what it may touch on the ground.
+    """
     keep_apart()
     inverse = Bodies(block).inverse_mass
     scales = Course(block).scales
+    own = Course(block).body_scales
     n = Sizes(block).coordinates
-    mass = gyration = far = reach = 0.0
-    for k in range(0, n, 3):
-        mass = max(mass, 1.0 / inverse[k])
-        gyration = max(gyration, math.sqrt(inverse[k] / inverse[k + 2]))
-        far = max(far, abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
+    reach = Loads(block).reach
+    clear(reach)
     count = active_rows(block, place_bodies(block, Course(block).y_end))
+    for b in range(Sizes(block).bodies):
+        LinearSystem(block).leader[b] = b
     for r in range(count):
-        for end in range(2):
-            first = 3 * Rows(block).body[r, end]
-            entry = Rows(block).jacobian[r]
-            across = math.sqrt(entry[first] * entry[first] + entry[first + 1] * entry[first + 1])
-            if first < n and across > 0.0:
-                reach = max(reach, abs(entry[first + 2]) / across)
-    for k in range(Sizes(block).outlines):
-        reach = max(reach, Outlines(block).data[k, codes.OUTLINE_RADIUS])
-    if reach > 0.0:
-        gyration = min(gyration, _GYRATION * max(reach, far))
-    scales[codes.SCALE_LENGTH] = max(gyration, reach, _FAR * far) / _LENGTH
+        entry = Rows(block).jacobian[r]
+        i, j = Rows(block).body[r, 0], Rows(block).body[r, 1]
+        for b in (i, j):
+            across = math.sqrt(entry[3 * b] * entry[3 * b] + entry[3 * b + 1] * entry[3 * b + 1])
+            if 3 * b < n and across > 0.0:
+                reach[b] = max(reach[b], abs(entry[3 * b + 2]) / across)
+        if 3 * i < n and 3 * j < n:
+            one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)
+            LinearSystem(block).leader[max(one, other)] = min(one, other)
+    for c in range(Sizes(block).contacts):
+        _reach_with_outline(block, Contacts(block).body_i[c], Contacts(block).outline_i[c])
+        _reach_with_outline(block, Contacts(block).body_j[c], Contacts(block).outline_j[c])
+    mass = length = 0.0
+    for k in range(0, n, 3):
+        b = k // 3
+        mass = max(mass, 1.0 / inverse[k])
+        far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
+        gyration = math.sqrt(inverse[k] / inverse[k + 2])
+        if reach[b] > 0.0:
+            gyration = min(gyration, _GYRATION * max(reach[b], far))
+        own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
+        own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = Loads(block).haste[b] = 0.0
+        length = max(length, own[b, codes.BODY_LENGTH])
+    clear(reach)
+    for b in range(Sizes(block).bodies):
+        join_scales(block, leader_of(LinearSystem(block), b), b)
+    for b in range(Sizes(block).bodies):
+        take_scales(block, leader_of(LinearSystem(block), b), b)
+    scales[codes.SCALE_LENGTH] = length
     scales[codes.SCALE_MASS] = mass / _MASS
     scales[codes.SCALE_RATE] = 0.0
     scales[codes.SCALE_PRESENT] = 0.0
 
 
 @jit
+def _reach_with_outline(block: Array, body: int, outline: int) -> None:
+    """Let the reach of a body be that of an outline of it, at least; of one on the ground, that of no body."""
+    if outline != codes.NONE and body < Sizes(block).bodies:
+        Loads(block).reach[body] = max(Loads(block).reach[body], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
+
+
+@jit
+def join_scales(block: Array, leader: int, body: int) -> None:
+    """Let what a body has by itself count for all bodies behind this leader, in `loads.haste` and `loads.reach`."""
+    load = Loads(block)
+    own = Course(block).body_scales[body]
+    load.haste[leader] = max(load.haste[leader], max(load.haste[body], _FALLS * own[codes.BODY_PACE]))
+    load.reach[leader] = max(load.reach[leader], own[codes.BODY_LENGTH])
+
+
+@jit
+def take_scales(block: Array, leader: int, body: int) -> None:
+    """Let a body have the scales that have been joined behind this leader."""
+    Course(block).body_scales[body, codes.BODY_EXTENT] = Loads(block).reach[leader]
+    Course(block).body_scales[body, codes.BODY_PACE] = Loads(block).haste[leader]
+
+
+@jit
 def note_rate(block: Array, least: float) -> None:
     """Write the scale of the present rate from what acts and moves at y_end, and that of all rates, where none is yet.
 
-    It is `least` [1/s] or more. What nothing acts on and nothing moves in goes by 1/s, until something does.
+    It is `least` [1/s] or more. What nothing acts on and nothing moves in goes by 1/s, until something does. That of
+    each body by itself becomes `loads.haste`.
     """
     keep_apart()
     scales = Course(block).scales
     y = Course(block).y_end
     n = Sizes(block).coordinates
     apply_forces(block, place_bodies(block, y), y, Course(block).dy_end)
-    length = _LENGTH * scales[codes.SCALE_LENGTH]
     inverse = Bodies(block).inverse_mass
     size = Loads(block).size
     moves, acts = least, 0.0
+    haste = Loads(block).haste
+    clear(Loads(block).reach)
     for k in range(0, n, 3):
-        speed = max(abs(y[n + k]), abs(y[n + k + 1])) / length
-        moves = max(moves, speed, abs(y[n + k + 2]))
-        acts = max(acts, max(size[k], size[k + 1]) * inverse[k] / length)
-        acts = max(acts, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
-    rate = max(moves, math.sqrt(acts)) / _RATE
-    if not rate < math.inf:  # of what is no number, no step comes either
-        rate = 0.0
+        length = LENGTH * scales[codes.SCALE_LENGTH]
+        own = max(abs(y[n + k]) / length, abs(y[n + k + 1]) / length, abs(y[n + k + 2]))
+        push = max(size[k], size[k + 1]) * inverse[k] / length
+        push = max(push, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
+        moves, acts = max(moves, own), max(acts, push)
+        length = LENGTH * Course(block).body_scales[k // 3, codes.BODY_EXTENT]
+        haste[k // 3] = _in_scale(max(own, math.sqrt(push)))
+    rate = _in_scale(max(moves, math.sqrt(acts)))
     if rate == 0.0:
         rate = winding_rate(block) / _RATE
     known = scales[codes.SCALE_PRESENT]
     if scales[codes.SCALE_RATE] == 0.0:
         scales[codes.SCALE_RATE] = rate
     scales[codes.SCALE_PRESENT] = max(rate, _FALLS * known)
+
+
+@jit
+def _in_scale(rate: float) -> float:
+    """Rate in scale; 0 of what is no number: no step comes of that either."""
+    scaled = rate / _RATE
+    return scaled if scaled < math.inf else 0.0

@@ -29,7 +29,7 @@ from ..dynamics.forces import inputs_changed, take_inputs
 from ..dynamics.thresholds import change_sides
 from ..outlines.nearest import MEETS, look_no_deeper, nearest
 from ..profiles.curves import left_to_piece
-from ..scales import contact_unit, present_rate
+from ..scales import contact_speed, contact_unit
 from ..stepping.step_size import smallest_step
 from ..stepping.stepper import restart
 from ..vectors import clear, copy
@@ -149,7 +149,7 @@ def _is_due(block: Array, at: Pose, number: int) -> bool:
         return False
     distance, rate = gap(block, at, subject)
     unit = contact_unit(block, subject)
-    approaches = rate < -RESTS_BELOW * unit * present_rate(block)
+    approaches = rate < -RESTS_BELOW * contact_speed(block, subject)
     return distance <= TOUCHES_WITHIN * unit and approaches and not is_leaving(block, number)
 
 
@@ -158,7 +158,7 @@ def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
     """A gap is zero, or the rate of a contact that was leaving; return a status."""
     keep_apart()
     unit = contact_unit(block, contact)
-    rests_below = RESTS_BELOW * unit * present_rate(block)
+    rests_below = RESTS_BELOW * contact_speed(block, contact)
     if is_leaving(block, number) and gap(block, at, contact)[0] > TOUCHES_WITHIN * unit:
         Exchange(block).leaves[contact] = 0  # from the top of its hop on, its gap is looked at
         Exchange(block).lift[number] = 0.0

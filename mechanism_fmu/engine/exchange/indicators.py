@@ -35,7 +35,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, Exchange, LinearSystem, Pose, Rubs
 from ...tables.parts import Contacts, Outlines, Ports
 from ...tables.sizes import Sizes
-from ...tolerances import MARGIN, SLIPS_ABOVE, STICK_SPEED
+from ...tolerances import PASSES_BY, SLIPS_ABOVE, STICK_SPEED
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import rubs, slips, sticks
@@ -48,7 +48,7 @@ from ..dynamics.rounding import force_rounding, note_level
 from ..dynamics.sliding import hold
 from ..elementary import sine_cosine
 from ..outlines.nearest import look_no_deeper
-from ..scales import contact_unit, force_scale, friction_unit, guard_unit, length_scale, present_rate
+from ..scales import contact_speed, contact_unit, force_scale, friction_unit, guard_unit, length_scale, slip_scale
 from ..stepping.singular import SINGULAR_BELOW, independence
 from ..stepping.step_size import MOST_TURN
 from .thresholds import write_threshold_indicators
@@ -154,13 +154,14 @@ def indicator(block: Array, at: Pose, number: int) -> float:
         )
     if is_leaving(block, number):
         distance, rate = gap(block, at, subject)
-        leaves = rate / present_rate(block) + STICK_SPEED * contact_unit(block, subject) + distance / RETURN_TIME
+        unit = contact_unit(block, subject)
+        leaves = (rate / contact_speed(block, subject) + STICK_SPEED) * unit + distance / RETURN_TIME
         return leaves / order(block, guard, subject)
     if guard == codes.GUARD_GAP and is_free(block, subject):
         return _before_meeting(block, at, number, subject) / order(block, guard, subject)
     value = guard_value(block, at, number)[0]
     if guard == codes.GUARD_STICK:
-        value = value / present_rate(block) + 0.5 * SLIPS_ABOVE * friction_unit(block, subject)  # at 0 it is at rest
+        value = (value / slip_scale(block, subject) + 0.5 * SLIPS_ABOVE) * friction_unit(block, subject)  # 0: at rest
     return value / order(block, guard, subject)
 
 
@@ -314,7 +315,7 @@ def due_below(block: Array, number: int) -> float:
 def lift(block: Array, at: Pose, number: int, least: float) -> None:
     """Lift an indicator that is less than `least` to that, or take back its lift.
 
-    What has come to the end of a feature in a hollow corner has nowhere to go on; it counts again a `MARGIN` farther.
+    What has come to the end of a feature in a hollow corner has nowhere to go on; it counts again `PASSES_BY` farther.
     """
     keep_small()
     value = indicator(block, at, number)
@@ -324,7 +325,7 @@ def lift(block: Array, at: Pose, number: int, least: float) -> None:
         table.lift[number] = least - value
         guard, subject = guard_of(block, number)
         if guard == codes.GUARD_HANDOVER:
-            table.lift[number] += MARGIN * length_scale(block) / order(block, guard, subject)
+            table.lift[number] += PASSES_BY * length_scale(block) / order(block, guard, subject)
 
 
 @jit

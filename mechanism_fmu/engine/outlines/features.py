@@ -11,7 +11,7 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Features, Outlines
-from ...tolerances import MARGIN, TOUCHES_WITHIN
+from ...tolerances import PASSES_BY, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2, sine_cosine
 from ..scales import length_scale
@@ -20,10 +20,10 @@ from ..scales import length_scale
 FAR = 1e30
 #: All lengths here are in the scale of lengths. Two corners touch when they are this near: those of two blocks on one
 #: floor would else pass through each other.
-CORNERS_TOUCH = 1e-9
+CORNERS_TOUCH = 1e-10
 #: So far beyond its end something may still be over a feature; less than where a contact hands over, so that what
 #: has come to its end is not found there again.
-BEYOND = 0.5 * MARGIN
+BEYOND = 0.5 * PASSES_BY
 #: A corner that is nearer than this to a corner is at that corner.
 AT_A_CORNER = 10.0 * TOUCHES_WITHIN
 #: What a corner touches may be turned against the elements beside it by this [rad], as what lies flat there is.

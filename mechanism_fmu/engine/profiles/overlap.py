@@ -17,7 +17,7 @@ from .touch import look
 #: Points of profile i that are looked at.
 _SAMPLES = 720
 #: Profiles overlap when one reaches into the other by more than this, in scale.
-_OVERLAP = 1e-9
+_OVERLAP = 1e-10
 
 
 @jit

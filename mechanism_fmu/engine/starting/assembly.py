@@ -17,6 +17,7 @@ from ..contacts.guards import function_value, gap, guard_value, place_contact, p
 from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
 from ..dynamics.linear_solve import solve, write_matrix
+from ..dynamics.scaling import LENGTH
 from ..profiles.nearest import find_contact_points, settle_contact_points
 from ..scales import contact_unit, largest_off, length_scale
 from ..vectors import copy
@@ -102,6 +103,7 @@ def start_guess(block: Array, offset: int) -> None:
     for i in range(body.start.shape[0]):
         for k in range(3):
             now.y_end[3 * i + k] = body.start[i, k]
+            weight[3 * i + k] = 1.0 if k == 2 else length_scale(block)
     part_all(block)
     held = Options(block).held
     for k in range(held.shape[0]):
@@ -138,7 +140,7 @@ def start_rates(block: Array) -> None:
     for i in range(rate.shape[0]):
         for k in range(3):
             Course(block).y_end[n + 3 * i + k] = rate[i, k]
-            Loads(block).weight[3 * i + k] = 1.0 if k == 2 else length_scale(block)
+            Loads(block).weight[3 * i + k] = 1.0 if k == 2 else LENGTH * length_scale(block)
 
 
 @jit

@@ -27,7 +27,7 @@ from ..dynamics.thresholds import clear_sides
 from ..profiles.curves import within_motions
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
-from ..scales import contact_unit, largest_off, present_rate
+from ..scales import contact_speed, contact_unit, largest_off, present_rate
 from ..vectors import clear
 from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, start_rates
 
@@ -132,7 +132,7 @@ def _contacts_begin(block: Array, at: Pose) -> bool:
             if not distance >= -touches_within:
                 _blame(block, c, distance)
                 return False
-            if distance <= touches_within and abs(rate) < STICK_SPEED * contact_unit(block, c) * present_rate(block):
+            if distance <= touches_within and abs(rate) < STICK_SPEED * contact_speed(block, c):
                 table.mode[c] = codes.CLOSED
             elif distance <= touches_within:
                 table.touching[c] = 1

@@ -5,7 +5,7 @@ Open at t0: what has fired at the end of one step does not fire again at the sta
 falls between two steps. Only this way round counts. Of several guards the earliest fires. Exceptions at t0:
 
 - a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at; but the end
-  of a feature in a hollow corner, where nothing takes over, counts when it is passed by another MARGIN;
+  of a feature in a hollow corner, where nothing takes over, counts when it is passed by another PASSES_BY;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
   it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then where it
   comes back to min(w(t0), 0), at the top of its hop where rounding hides that, or below by GAP_NOISE where there is
@@ -30,7 +30,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import GAP_NOISE, MARGIN, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
+from ...tolerances import GAP_NOISE, PASSES_BY, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
@@ -38,7 +38,7 @@ from ..contacts.binding import bind, is_free, is_outline, let_loose
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
 from ..contacts.handover import ends_in_hollow, left_to_go
 from ..contacts.inside import is_too_deep
-from ..scales import contact_unit, friction_unit, guard_unit, length_scale, present_rate, rate_scale
+from ..scales import contact_speed, contact_unit, guard_unit, length_scale, rate_scale, slip_scale
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, falls_between, place_at, value_at
 from .meeting import cannot_meet, fastest_to_end, meets_before, meets_since
@@ -102,7 +102,7 @@ def comes_down_beside(block: Array, guard: int, subject: int, fraction: float) -
     if guard != codes.GUARD_GAP or not is_outline(block, subject) or is_free(block, subject):
         return False
     hops = table.mode[subject] == codes.OPEN and table.touching[subject] != 0
-    beyond = MARGIN * length_scale(block)
+    beyond = PASSES_BY * length_scale(block)
     return bool(hops and left_to_go(block, place_at(block, fraction), subject)[0] < -beyond)
 
 
@@ -117,7 +117,7 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         at = place_at(block, step_size / s.tried[1])
         _let_loose_what_is_off(block, at, contact)
         bind(block, at, contact)
-    rests_below = RESTS_BELOW * contact_unit(block, contact) * present_rate(block)
+    rests_below = RESTS_BELOW * contact_speed(block, contact)
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
@@ -219,15 +219,13 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     look_at.floor[number] = 0.0
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_STICK:
-        slips_above = SLIPS_ABOVE * friction_unit(block, subject) * present_rate(block)
+        slips_above = SLIPS_ABOVE * slip_scale(block, subject)
         if value <= slips_above:  # it begins to slip
             look_at.armed[number] = 0
             look_at.floor[number] = min(value, 0.0) - slips_above
         return _NOT_YET
     if guard == codes.GUARD_HANDOVER and value <= 0.0 and ends_in_hollow(block, at, subject):
-        look_at.floor[number] = value - MARGIN * length_scale(
-            block
-        )  # nothing takes over there: what is beyond has been looked at
+        look_at.floor[number] = value - PASSES_BY * length_scale(block)  # nothing takes over: what is beyond is known
         return _NOT_YET
     if guard == codes.GUARD_HANDOVER and value > 0.0:
         look_at.most[number] = fastest_to_end(block, at, subject)
@@ -241,7 +239,7 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     if value > 0.0 and Contacts(block).touching[subject] == 0:
         return _NOT_YET
     unit = contact_unit(block, subject)
-    rests_below = RESTS_BELOW * unit * present_rate(block)
+    rests_below = RESTS_BELOW * contact_speed(block, subject)
     if rate < -rests_below:
         return 0.0
     look_at.floor[number] = -GAP_NOISE * unit
@@ -268,7 +266,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
         if next_value <= floor:
             fraction = bisect(block, number, before, after, floor)
         # not before: of what rests although it is taken to slip, rounding has either sign
-        if next_value > SLIPS_ABOVE * friction_unit(block, subject) * present_rate(block):
+        if next_value > SLIPS_ABOVE * slip_scale(block, subject):
             look_at.armed[number] = 1
             look_at.floor[number] = 0.0
         return fraction

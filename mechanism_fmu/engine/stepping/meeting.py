@@ -8,7 +8,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import GAP_NOISE, MARGIN
+from ...tolerances import GAP_NOISE, PASSES_BY
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.outline_row import place_feature
@@ -27,7 +27,7 @@ _NEWTON_STEPS = 12
 _CORNERS_LOOKS = 64
 _CORNERS_PART = 0.2
 #: So near to it a place of contact is at the end of a feature, in scale: what follows there goes on smoothly.
-_AT_THE_END = 0.1 * MARGIN
+_AT_THE_END = 0.1 * PASSES_BY
 #: The part of the way to the end of a feature from which on the slope there is measured.
 _CLOSE = 0.999
 
@@ -172,7 +172,7 @@ def fastest_to_end(block: Array, at: Pose, contact: int) -> float:
 def refine_end(block: Array, contact: int, step_size: float) -> float:
     """The step size at which the true step ends with the place of contact right at the end of its feature.
 
-    The guard has fired `MARGIN` beyond it, where the feature that follows would have turned the normal already. By
+    The guard has fired `PASSES_BY` beyond it, where the feature that follows would have turned the normal already. By
     Newton's method with the slope of the dense output there; that step is the last one tried.
     """
     keep_small()

@@ -7,7 +7,7 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, Implicit, LinearSystem, Rows, Stages
+from ...tables.motion import Course, Implicit, Rows, Stages
 from ...tables.parts import Contacts, Options, Thresholds
 from ...tables.sizes import Sizes
 from .. import status
@@ -15,14 +15,16 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..contacts.binding import deepest_overlap
+from ..contacts.complementarity import push_ratio
 from ..contacts.inside import blame, is_one_inside
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative, mend
 from ..dynamics.forces import set_time
+from ..dynamics.rounding import note_level
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
-from ..scales import contact_unit, force_scale, largest_off, length_scale, rate_scale
+from ..scales import largest_off, rate_scale
 from ..vectors import clear, copy
 from .crossing import first_crossing, refine_crossing
 from .events import comes_down_beside, first_event, refine
@@ -36,8 +38,8 @@ from .stiffness import choose_method
 
 # When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing.
 
-#: A contact force below this pulls, in the scale of the mechanism; rounding leaves about 1e-13.
-_PULLS_BELOW = -1e-9
+#: A contact pulls where its force is below so many times its rounding.
+_PULLS_BELOW = -100.0
 _BISECTIONS = 50
 
 #: Rows that have drifted by less than so many times `MOST_DRIFT` are closed by one correction, and no further look.
@@ -47,20 +49,19 @@ _INDEPENDENT = 1e-6
 
 
 @jit
-def _pulls_below(block: Array, contact: int) -> float:
-    return _PULLS_BELOW * force_scale(block) * length_scale(block) / contact_unit(block, contact)
-
-
-@jit
 def watch_at(block: Array, time: float) -> None:
     """Note `time` for every contact that pulls for the first time, by the multipliers of the last acceleration."""
     keep_small()
     table = Contacts(block)
-    system = LinearSystem(block)
+    is_noted = False
     for c in range(table.mode.shape[0]):
         held = table.mode[c] == codes.CLOSED and table.value[c, codes.GUIDED] > 0.5
-        pulls = held and system.multiplier[table.row[c]] < _pulls_below(block, c)
-        if pulls and table.pull_time[c] == math.inf:
+        if not held or table.pull_time[c] != math.inf:
+            continue
+        if not is_noted:
+            note_level(block, row_count(block))
+            is_noted = True
+        if push_ratio(block, c) < _PULLS_BELOW:
             table.pull_time[c] = time
             Course(block).counters[codes.COUNT_PULLS] += 1
 
@@ -81,10 +82,8 @@ def watch_step(block: Array) -> None:
 @jit
 def _locate(block: Array, contact: int) -> float:
     keep_small()
-    table = Contacts(block)
     now = Course(block)
     s = Stages(block)
-    limit = _pulls_below(block, contact)
     before = 0.0
     after = 1.0
     for _ in range(_BISECTIONS):
@@ -92,7 +91,8 @@ def _locate(block: Array, contact: int) -> float:
         interpolate(now.dense, middle, s.y_at)
         set_time(block, now.clock[codes.STEP_START] + middle * now.clock[codes.STEP_SIZE])
         derivative(block, s.y_at, s.dy_at)
-        if LinearSystem(block).multiplier[table.row[contact]] < limit:
+        note_level(block, row_count(block))
+        if push_ratio(block, contact) < _PULLS_BELOW:
             after = middle
         else:
             before = middle
