@@ -13,11 +13,11 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Rows
 from ...tables.parts import Bodies, Contacts, Outlines
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_apart
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
 from ..vectors import clear
-from .forces import apply_forces
+from .forces import apply_forces, set_time
 from .islands import leader_of
 from .own_states import winding_rate
 
@@ -25,9 +25,9 @@ from .own_states import winding_rate
 #: paper's model; the numbers of `tolerances` are for its size.
 LENGTH, _RATE, _MASS = 0.07634615877076063, 1.2190829483452197, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
-_FAR = 2.0**-12
-#: A radius of gyration counts up to so many times all other lengths: the inertia of what shall not turn is no size.
-_GYRATION = 64.0
+_FAR = 2.0**-9
+#: A radius of gyration counts up to so many times the other lengths: the inertia of what shall not turn is no size.
+_GYRATION = 2.0
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
 
@@ -111,34 +111,47 @@ def take_scales(block: Array, leader: int, body: int) -> None:
 def note_rate(block: Array, least: float) -> None:
     """Write the scale of the present rate from what acts and moves at y_end, and that of all rates, where none is yet.
 
-    It is `least` [1/s] or more. What nothing acts on and nothing moves in goes by 1/s, until something does. That of
-    each body by itself becomes `loads.haste`.
+    It is `least` [1/s] or more, and that of a motor's winding where that is faster by orders. What acts at the end of
+    the inputs' slopes counts, too. What nothing acts on and nothing moves in goes by 1/s, until something does. The
+    rate of each body by itself becomes `loads.haste`.
     """
     keep_apart()
-    scales = Course(block).scales
+    now = Course(block)
+    clear(Loads(block).haste)
+    clear(Loads(block).reach)
+    _note_haste(block)
+    if now.counters[codes.RAMPING] != 0:
+        set_time(block, now.clock[codes.RAMP_END])
+        _note_haste(block)
+        set_time(block, now.clock[codes.STEP_END])
+    rate = _in_scale(least)
+    for b in range(Sizes(block).bodies):
+        rate = max(rate, Loads(block).haste[b])
+    winding = winding_rate(block) / _RATE
+    if rate < _FALLS * winding:
+        rate = winding
+    scales = now.scales
+    if scales[codes.SCALE_RATE] < _FALLS * rate:
+        scales[codes.SCALE_RATE] = rate
+    scales[codes.SCALE_PRESENT] = max(rate, _FALLS * scales[codes.SCALE_PRESENT])
+
+
+@jit
+def _note_haste(block: Array) -> None:
+    """Let `loads.haste` be the rates of what acts on each body and moves at y_end, at the inputs of now, at least."""
+    keep_small()
     y = Course(block).y_end
     n = Sizes(block).coordinates
     apply_forces(block, place_bodies(block, y), y, Course(block).dy_end)
     inverse = Bodies(block).inverse_mass
     size = Loads(block).size
-    moves, acts = least, 0.0
     haste = Loads(block).haste
-    clear(Loads(block).reach)
     for k in range(0, n, 3):
-        length = LENGTH * scales[codes.SCALE_LENGTH]
-        own = max(abs(y[n + k]) / length, abs(y[n + k + 1]) / length, abs(y[n + k + 2]))
-        push = max(size[k], size[k + 1]) * inverse[k] / length
-        push = max(push, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
-        moves, acts = max(moves, own), max(acts, push)
         length = LENGTH * Course(block).body_scales[k // 3, codes.BODY_EXTENT]
-        haste[k // 3] = _in_scale(max(own, math.sqrt(push)))
-    rate = _in_scale(max(moves, math.sqrt(acts)))
-    if rate == 0.0:
-        rate = winding_rate(block) / _RATE
-    known = scales[codes.SCALE_PRESENT]
-    if scales[codes.SCALE_RATE] == 0.0:
-        scales[codes.SCALE_RATE] = rate
-    scales[codes.SCALE_PRESENT] = max(rate, _FALLS * known)
+        moves = max(max(abs(y[n + k]), abs(y[n + k + 1])) / length, abs(y[n + k + 2]))
+        acts = max(size[k], size[k + 1]) * inverse[k] / length
+        acts = max(acts, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
+        haste[k // 3] = max(haste[k // 3], _in_scale(max(moves, math.sqrt(acts))))
 
 
 @jit
