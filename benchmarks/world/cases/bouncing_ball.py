@@ -13,6 +13,7 @@ import math
 from collections.abc import Iterator
 from itertools import count
 
+from mechanism_fmu.engine.dynamics.scaling import LENGTH, RATE
 from mechanism_fmu.model import GROUND, Body, Mechanism, Output, PointLineContact, Settings
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import STICK_SPEED
@@ -22,7 +23,7 @@ from ..case import Case, Known, Origin, Run, impacts_until, steps_of
 GRAVITY, HEIGHT, RESTITUTION = 9.81, 1.0, 0.7
 _COUNTED = (1, 2, 5, 10, 15)
 #: Of a ball with a radius of gyration of 1 m that falls, over what has scale 1 (`engine.dynamics.scaling`).
-_SPEED_SCALE = math.sqrt(GRAVITY) / (0.07634615877076063 * 1.2190829483452197)
+_SPEED_SCALE = math.sqrt(GRAVITY) / (LENGTH * RATE)
 
 
 def ball(tolerance: float) -> Mechanism:

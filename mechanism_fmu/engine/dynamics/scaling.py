@@ -10,7 +10,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Loads, Rows
+from ...tables.motion import Course, LinearSystem, Loads, Rows, Stages
 from ...tables.parts import Bodies, Contacts, Outlines
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
@@ -23,7 +23,7 @@ from .own_states import winding_rate
 
 #: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
 #: paper's model; the numbers of `tolerances` are for its size.
-LENGTH, _RATE, _MASS = 0.07634615877076063, 1.2190829483452197, 5.6264
+LENGTH, RATE, _MASS = 0.06345360279310806, 1.4247443396802955, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-9
 #: A radius of gyration counts up to so many times the other lengths: the inertia of what shall not turn is no size.
@@ -62,14 +62,18 @@ def note_sizes(block: Array) -> None:
     for c in range(Sizes(block).contacts):
         _reach_with_outline(block, Contacts(block).body_i[c], Contacts(block).outline_i[c])
         _reach_with_outline(block, Contacts(block).body_j[c], Contacts(block).outline_j[c])
+    farthest = 0.0
+    for k in range(0, n, 3):
+        y = Course(block).y_end
+        farthest = max(farthest, max(reach[k // 3], max(abs(y[k]), abs(y[k + 1]))))
     mass = length = 0.0
     for k in range(0, n, 3):
         b = k // 3
         mass = max(mass, 1.0 / inverse[k])
         far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
         gyration = math.sqrt(inverse[k] / inverse[k + 2])
-        if reach[b] > 0.0:
-            gyration = min(gyration, _GYRATION * max(reach[b], far))
+        if farthest > 0.0:
+            gyration = min(gyration, _GYRATION * (max(reach[b], far) if reach[b] > 0.0 else farthest))
         own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
         own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = Loads(block).haste[b] = 0.0
         length = max(length, own[b, codes.BODY_LENGTH])
@@ -111,51 +115,58 @@ def take_scales(block: Array, leader: int, body: int) -> None:
 def note_rate(block: Array, least: float) -> None:
     """Write the scale of the present rate from what acts and moves at y_end, and that of all rates, where none is yet.
 
-    It is `least` [1/s] or more, and that of a motor's winding where that is faster by orders. What acts at the end of
-    the inputs' slopes counts, too. What nothing acts on and nothing moves in goes by 1/s, until something does. The
-    rate of each body by itself becomes `loads.haste`.
+    It is `least` [1/s] or more, and that of a motor's winding where that is faster by orders. What nothing acts on and
+    nothing moves in goes by 1/s, until something does. The rate of each body by itself becomes `loads.haste`.
     """
     keep_apart()
-    now = Course(block)
-    clear(Loads(block).haste)
-    clear(Loads(block).reach)
-    _note_haste(block)
-    if now.counters[codes.RAMPING] != 0:
-        set_time(block, now.clock[codes.RAMP_END])
-        _note_haste(block)
-        set_time(block, now.clock[codes.STEP_END])
-    rate = _in_scale(least)
-    for b in range(Sizes(block).bodies):
-        rate = max(rate, Loads(block).haste[b])
-    winding = winding_rate(block) / _RATE
+    rate = max(_note_haste(block), _in_scale(least))
+    winding = winding_rate(block) / RATE
     if rate < _FALLS * winding:
         rate = winding
-    scales = now.scales
-    if scales[codes.SCALE_RATE] < _FALLS * rate:
-        scales[codes.SCALE_RATE] = rate
+    _raise_rate(block, rate)
+    scales = Course(block).scales
     scales[codes.SCALE_PRESENT] = max(rate, _FALLS * scales[codes.SCALE_PRESENT])
 
 
 @jit
-def _note_haste(block: Array) -> None:
-    """Let `loads.haste` be the rates of what acts on each body and moves at y_end, at the inputs of now, at least."""
+def note_slopes(block: Array) -> None:
+    """Raise the scale of rates where what acts at the end of the inputs' slopes is faster by orders."""
+    set_time(block, Course(block).clock[codes.RAMP_END])
+    _raise_rate(block, _note_haste(block))
+
+
+@jit
+def _raise_rate(block: Array, rate: float) -> None:
+    """Let this be the scale of rates where that is still smaller by orders, or none."""
+    scales = Course(block).scales
+    if scales[codes.SCALE_RATE] < _FALLS * rate:
+        scales[codes.SCALE_RATE] = rate
+
+
+@jit
+def _note_haste(block: Array) -> float:
+    """Let `loads.haste` be the rate of what acts on each body and moves at y_end, at the inputs of now; the largest."""
     keep_small()
     y = Course(block).y_end
     n = Sizes(block).coordinates
-    apply_forces(block, place_bodies(block, y), y, Course(block).dy_end)
+    apply_forces(block, place_bodies(block, y), y, Stages(block).dy_at)
     inverse = Bodies(block).inverse_mass
     size = Loads(block).size
     haste = Loads(block).haste
+    clear(Loads(block).reach)
+    largest = 0.0
     for k in range(0, n, 3):
         length = LENGTH * Course(block).body_scales[k // 3, codes.BODY_EXTENT]
         moves = max(max(abs(y[n + k]), abs(y[n + k + 1])) / length, abs(y[n + k + 2]))
         acts = max(size[k], size[k + 1]) * inverse[k] / length
         acts = max(acts, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
-        haste[k // 3] = max(haste[k // 3], _in_scale(max(moves, math.sqrt(acts))))
+        haste[k // 3] = _in_scale(max(moves, math.sqrt(acts)))
+        largest = max(largest, haste[k // 3])
+    return largest
 
 
 @jit
 def _in_scale(rate: float) -> float:
     """Rate in scale; 0 of what is no number: no step comes of that either."""
-    scaled = rate / _RATE
+    scaled = rate / RATE
     return scaled if scaled < math.inf else 0.0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mechanism_fmu import codes
+from mechanism_fmu.engine.dynamics.scaling import LENGTH, RATE
 from mechanism_fmu.model import (
     GROUND,
     Body,
@@ -21,9 +22,8 @@ from mechanism_fmu.tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 
 MASS = 0.7
 #: What has scale 1 (`dynamics.scaling`), and the ball's radius of gyration and its speed of 1 m/s over that.
-UNIT, RATE = 0.07634615877076063, 1.2190829483452197
-LENGTH, SPEED = math.sqrt(0.1 / MASS) / UNIT, 1.0 / (UNIT * RATE)
-TOUCHES, RESTS, STICKS = LENGTH * TOUCHES_WITHIN, SPEED * RESTS_BELOW, SPEED * STICK_SPEED
+SIZE, SPEED = math.sqrt(0.1 / MASS) / LENGTH, 1.0 / (LENGTH * RATE)
+TOUCHES, RESTS, STICKS = SIZE * TOUCHES_WITHIN, SPEED * RESTS_BELOW, SPEED * STICK_SPEED
 ENERGIES = tuple(Output(name, f"energy.{name}", "") for name in ("kinetic", "work", "lost"))
 
 
