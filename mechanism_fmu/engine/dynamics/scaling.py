@@ -62,18 +62,20 @@ def note_sizes(block: Array) -> None:
     for c in range(Sizes(block).contacts):
         _reach_with_outline(block, Contacts(block).body_i[c], Contacts(block).outline_i[c])
         _reach_with_outline(block, Contacts(block).body_j[c], Contacts(block).outline_j[c])
-    farthest = 0.0
+    widest = farthest = 0.0
     for k in range(0, n, 3):
-        y = Course(block).y_end
-        farthest = max(farthest, max(reach[k // 3], max(abs(y[k]), abs(y[k + 1]))))
+        widest = max(widest, reach[k // 3])
+        farthest = max(farthest, max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1])))
     mass = length = 0.0
     for k in range(0, n, 3):
         b = k // 3
         mass = max(mass, 1.0 / inverse[k])
         far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
         gyration = math.sqrt(inverse[k] / inverse[k + 2])
-        if farthest > 0.0:
-            gyration = min(gyration, _GYRATION * (max(reach[b], far) if reach[b] > 0.0 else farthest))
+        if reach[b] > 0.0:
+            gyration = min(gyration, _GYRATION * max(reach[b], far))
+        elif widest > 0.0:
+            gyration = min(gyration, _GYRATION * max(widest, farthest))
         own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
         own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = Loads(block).haste[b] = 0.0
         length = max(length, own[b, codes.BODY_LENGTH])
