@@ -24,7 +24,7 @@ SLIPS_WHERE_PILED = 1e-7
 #: What sticks goes on to do so while its slip speed is below this: rows may drift so far.
 STUCK_BELOW = 1e-9
 #: A gap that is zero and does not change may go below zero by this before it counts.
-GAP_NOISE = 1e-13
+GAP_NOISE = 1e-12
 #: An open gap that is farther below zero is a penetration, and nothing goes on from there: what touches, and the noise
 #: by which it may have come deeper; far from the origin and at high speed, more (`contacts.inside`).
 DEEPEST = TOUCHES_WITHIN + 2.0 * GAP_NOISE

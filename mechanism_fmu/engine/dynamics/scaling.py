@@ -25,7 +25,7 @@ from .own_states import winding_rate
 #: paper's model; the numbers of `tolerances` are for its size.
 LENGTH, RATE, _MASS = 0.06345360279310806, 1.4247443396802955, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
-_FAR = 2.0**-9
+_FAR = 2.0**-12
 #: A radius of gyration counts up to so many times the other lengths: the inertia of what shall not turn is no size.
 _GYRATION = 2.0
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
