@@ -137,3 +137,33 @@ def test_what_nothing_presses_parts_however_slowly():
     floor = PointLineContact("floor", ball.at(0, 0), GROUND.line((0, 0), (1, 0)), restitution=0.5)
     result = simulate(Mechanism((ball,), contacts=(floor,)), until=3e3, step=1e3)
     assert result["ball_y"][-1] == pytest.approx(1e-6, rel=1e-9)
+
+
+def beside(neighbour):
+    """A grain whose weight and 1e-3 of it more lift it, and a grain that falls from 1 mm and bounces, beside others."""
+    lifted = rigid_body("lifted", (0, 0), mass=1e-6, inertia=1e-14)
+    falls = rigid_body("falls", (1e-2, 1e-3), mass=1e-6, inertia=1e-14)
+    floor = GROUND.line((0, 0), (1, 0))
+    contacts = (
+        PointLineContact("floor", lifted.at(0, 0), floor, closed=True),
+        PointLineContact("bounces", falls.at(0, 0), floor, restitution=0.4),
+    )
+    forces = (PointForce("pull", lifted.at(0, 0), force=(0.0, 1.001 * 1e-6 * 9.81)),)
+    bodies, joints = neighbour
+    mechanism = Mechanism((lifted, falls, *bodies), joints, forces, contacts, gravity=(0, -9.81))
+    result = simulate(mechanism, until=0.1, step=0.05)
+    return result["lifted_y"][-1], [(hit.time, hit.closing_speed) for hit in result.impacts]
+
+
+@pytest.mark.parametrize("neighbour", ["rotor", "crane"])
+def test_what_is_small_moves_beside_what_is_large_or_fast_as_it_does_alone(neighbour):
+    """A rotor at 1e4 rad/s, a pendulum of 10 m and 1 t: they share nothing with the grains."""
+    rotor = rigid_body("rotor", (0, 1), mass=1.0, inertia=1e-3, speed=1e4)
+    crane = rigid_body("crane", (0, 1), mass=1e3, inertia=1e4, centre=(10.0, 0.0))
+    body = rotor if neighbour == "rotor" else crane
+    high, impacts = beside(((body,), (Revolute("pin", body.at(0, 0), GROUND.at(0, 1)),)))
+    alone, once = beside(((), ()))
+    assert high == pytest.approx(0.5 * 9.81e-3 * 0.1**2, rel=1e-8)
+    assert alone == pytest.approx(high, rel=1e-8)
+    assert len(impacts) == len(once)
+    np.testing.assert_allclose(impacts, once, rtol=1e-6, atol=0)
