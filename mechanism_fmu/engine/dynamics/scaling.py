@@ -30,6 +30,8 @@ _FAR = 2.0**-12
 _GYRATION = 2.0
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
+#: A rate below this is none: the fifth power of its time is no number.
+_NOTHING = 2.0**-200
 
 
 @jit
@@ -37,7 +39,7 @@ def note_sizes(block: Array) -> None:
     """Write the scales of length and mass, from the bodies' start, and from the arms of the rows that are active.
 
     The length of a body is the largest of its radius of gyration, of its arms, of the radius of its outlines, and of
-    a part of how far it is away, or what it may touch on the ground.
+    a part of how far it is away.
     """
     keep_apart()
     inverse = Bodies(block).inverse_mass
@@ -59,27 +61,34 @@ def note_sizes(block: Array) -> None:
         if 3 * i < n and 3 * j < n:
             one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)
             LinearSystem(block).leader[max(one, other)] = min(one, other)
+    table = Contacts(block)
     for c in range(Sizes(block).contacts):
-        _reach_with_outline(block, Contacts(block).body_i[c], Contacts(block).outline_i[c])
-        _reach_with_outline(block, Contacts(block).body_j[c], Contacts(block).outline_j[c])
-    widest = farthest = 0.0
-    for k in range(0, n, 3):
-        widest = max(widest, reach[k // 3])
-        farthest = max(farthest, max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1])))
+        for outline, b in ((table.outline_i[c], table.body_i[c]), (table.outline_j[c], table.body_j[c])):
+            if outline != codes.NONE and 3 * b < n:
+                reach[b] = max(reach[b], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
+        if table.kind[c] == codes.POINT_LINE:
+            for point, b in ((table.data[c], table.body_i[c]), (table.line[c], table.body_j[c])):
+                if 3 * b < n:
+                    reach[b] = max(reach[b], math.sqrt(point[0] * point[0] + point[1] * point[1]))
+    widest = Loads(block).haste
+    clear(widest)
+    for b in range(Sizes(block).bodies):
+        leader = leader_of(LinearSystem(block), b)
+        widest[leader] = max(widest[leader], reach[b])
     mass = length = 0.0
     for k in range(0, n, 3):
         b = k // 3
         mass = max(mass, 1.0 / inverse[k])
         far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
         gyration = math.sqrt(inverse[k] / inverse[k + 2])
-        if reach[b] > 0.0:
-            gyration = min(gyration, _GYRATION * max(reach[b], far))
-        elif widest > 0.0:
-            gyration = min(gyration, _GYRATION * max(widest, farthest))
+        arm = reach[b] if reach[b] > 0.0 else widest[leader_of(LinearSystem(block), b)]
+        if arm > 0.0:
+            gyration = min(gyration, _GYRATION * max(arm, far))
         own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
-        own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = Loads(block).haste[b] = 0.0
+        own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = 0.0
         length = max(length, own[b, codes.BODY_LENGTH])
     clear(reach)
+    clear(Loads(block).haste)
     for b in range(Sizes(block).bodies):
         join_scales(block, leader_of(LinearSystem(block), b), b)
     for b in range(Sizes(block).bodies):
@@ -88,13 +97,6 @@ def note_sizes(block: Array) -> None:
     scales[codes.SCALE_MASS] = mass / _MASS
     scales[codes.SCALE_RATE] = 0.0
     scales[codes.SCALE_PRESENT] = 0.0
-
-
-@jit
-def _reach_with_outline(block: Array, body: int, outline: int) -> None:
-    """Let the reach of a body be that of an outline of it, at least; of one on the ground, that of no body."""
-    if outline != codes.NONE and body < Sizes(block).bodies:
-        Loads(block).reach[body] = max(Loads(block).reach[body], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
 
 
 @jit
@@ -169,6 +171,6 @@ def _note_haste(block: Array) -> float:
 
 @jit
 def _in_scale(rate: float) -> float:
-    """Rate in scale; 0 of what is no number: no step comes of that either."""
+    """Rate in scale; 0 of what is no number, as no step comes of that either, or so small that powers overflow."""
     scaled = rate / RATE
-    return scaled if scaled < math.inf else 0.0
+    return scaled if _NOTHING < scaled < math.inf else 0.0
