@@ -23,11 +23,9 @@ from .own_states import winding_rate
 
 #: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
 #: paper's model; the numbers of `tolerances` are for its size.
-LENGTH, RATE, _MASS = 0.06345360279310806, 1.4247443396802955, 5.6264
+LENGTH, RATE, _MASS = 0.1, 0.6722794108001735, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
-#: A radius of gyration counts up to so many times the other lengths: the inertia of what shall not turn is no size.
-_GYRATION = 2.0
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
 #: A rate below this is none: the fifth power of its time is no number.
@@ -83,7 +81,7 @@ def note_sizes(block: Array) -> None:
         gyration = math.sqrt(inverse[k] / inverse[k + 2])
         arm = reach[b] if reach[b] > 0.0 else widest[leader_of(LinearSystem(block), b)]
         if arm > 0.0:
-            gyration = min(gyration, _GYRATION * max(arm, far))
+            gyration = min(gyration, max(arm, far))  # the inertia of what shall not turn is no size
         own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
         own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = 0.0
         length = max(length, own[b, codes.BODY_LENGTH])

@@ -39,7 +39,7 @@ from .stiffness import choose_method
 # When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing.
 
 #: A contact pulls where its force is below so many times its rounding.
-_PULLS_BELOW = -100.0
+_PULLS_BELOW = -10.0
 _BISECTIONS = 50
 
 #: Rows that have drifted by less than so many times `MOST_DRIFT` are closed by one correction, and no further look.

@@ -31,6 +31,7 @@ def of_scale_one(mechanism):
     """The block of a mechanism, in which tolerances are as they stand."""
     block = Simulation(mechanism)._block
     field_of(block, "scales")[:] = 1.0
+    field_of(block, "body_scales")[:] = 1.0
     return block
 
 

@@ -39,6 +39,7 @@ def found(push, *, gap=1.0 + 0 * T, seen=(-10.0, 10.0)):
     assert simulation.mode() == ("stop",)
     block = simulation._block
     field_of(block, "scales")[:] = 1.0
+    field_of(block, "body_scales")[:] = 1.0
     field_of(block, "tried")[:] = (0.0, 1.0)
     field_of(block, "least_push")[:] = (seen[0], 0.0)
     field_of(block, "most_push")[:] = (seen[1], 0.0)
