@@ -25,11 +25,12 @@ SLIPS_WHERE_PILED = 1e-7
 STUCK_BELOW = 1e-9
 #: A gap that is zero and does not change may go below zero by this before it counts.
 GAP_NOISE = 1e-12
-#: An open gap that is farther below zero is a penetration, and nothing goes on from there: what touches, and the noise
-#: by which it may have come deeper; far from the origin and at high speed, more (`contacts.inside`).
-DEEPEST = TOUCHES_WITHIN + 2.0 * GAP_NOISE
 #: How far a boundary, a pitch or a limit is passed before it counts.
 MARGIN = 1e-10
+#: An open gap that is farther below zero is a penetration, and nothing goes on from there: by how much more a point may
+#: have gone behind the line of a copy when its boundary is passed, and the noise by which it may have come deeper; far
+#: from the origin and at high speed, more (`contacts.inside`).
+DEEPEST = 10.0 * MARGIN + 2.0 * GAP_NOISE
 #: How far the end of an element of an outline is passed before a contact goes on to the next one.
 PASSES_BY = 1e-11
 #: The instant of an event is found when one more Newton step would move it by less than this.

@@ -23,7 +23,7 @@ from .own_states import winding_rate
 
 #: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
 #: paper's model; the numbers of `tolerances` are for its size.
-LENGTH, RATE, _MASS = 0.1, 0.6722794108001735, 5.6264
+LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 5.6264
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
