@@ -17,7 +17,6 @@ from ..contacts.guards import function_value, gap, guard_value, place_contact, p
 from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
 from ..dynamics.linear_solve import solve, write_matrix
-from ..dynamics.scaling import LENGTH
 from ..profiles.nearest import find_contact_points, settle_contact_points
 from ..scales import contact_unit, largest_off, length_scale
 from ..vectors import copy
@@ -133,14 +132,14 @@ def start_guess(block: Array, offset: int) -> None:
 
 @jit
 def start_rates(block: Array) -> None:
-    """The bodies' start rates, with no coordinate held."""
+    """The bodies' start rates, with no coordinate held: others are as far from them as their energy says."""
     keep_apart()
     n = Sizes(block).coordinates
     rate = Bodies(block).start_rate
     for i in range(rate.shape[0]):
         for k in range(3):
             Course(block).y_end[n + 3 * i + k] = rate[i, k]
-            Loads(block).weight[3 * i + k] = 1.0 if k == 2 else LENGTH * length_scale(block)
+            Loads(block).weight[3 * i + k] = Bodies(block).inverse_root_mass[3 * i + k]
 
 
 @jit
