@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mechanism_fmu import codes
+from mechanism_fmu.engine.dynamics.scaling import LENGTH, RATE
 from mechanism_fmu.model import GROUND, Mechanism, PointLineContact, rigid_body
 from mechanism_fmu.simulation import Simulation, simulate
 from mechanism_fmu.tolerances import STICK_SPEED
@@ -27,6 +28,8 @@ from .growth import exponent, require_compiler
 from .timing import require_agreement
 
 GRAVITY, RESTITUTION = 9.81, 0.5
+#: Of balls with a radius of gyration of 0.1 m that fall (`engine.dynamics.scaling`) [m/s].
+_STICKS_BELOW = STICK_SPEED * math.sqrt(GRAVITY * 0.1) / (LENGTH * RATE)
 #: The last ball, from 1.5 m, rests after 1.66 s.
 UNTIL = 2.0
 COUNTS = (30, 100, 300)
@@ -58,7 +61,7 @@ def bounces(count: int) -> list[tuple[float, int, float]]:
         speed = math.sqrt(2.0 * GRAVITY * height)
         at = speed / GRAVITY
         found.append((at, k, speed))
-        while RESTITUTION * speed >= STICK_SPEED:
+        while RESTITUTION * speed >= _STICKS_BELOW:
             speed *= RESTITUTION
             at += 2.0 * speed / GRAVITY
             found.append((at, k, speed))

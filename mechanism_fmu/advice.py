@@ -177,7 +177,9 @@ def _penetration(contact: Contact, block: Array, way_out: str) -> str:
 
 def _contradictions(mechanism: Mechanism, block: Array, closed: Collection[str]) -> str:
     """The bodies to which the joints give other rates than the start rates; where there are none, the joints."""
-    left = _off(mechanism, field_of(block, "residual_rate"), closed, RATES_WITHIN)
+    length, _, _, rate = field_of(block, "scales").tolist()
+    within = RATES_WITHIN * min(1.0, length) * (rate or 1.0)  # be they in m/s or rad/s
+    left = _off(mechanism, field_of(block, "residual_rate"), closed, within)
     if left:
         return (
             f" No rates near them do; what is left: {left} (m/s, or rad/s). Drivers or closed contacts contradict "
@@ -186,9 +188,9 @@ def _contradictions(mechanism: Mechanism, block: Array, closed: Collection[str])
     given = field_of(block, "body_start_rate")
     asked = field_of(block, "y_end")[given.size : 2 * given.size].reshape(given.shape)
     bodies = [
-        f"body {body.name!r} ({_shown(asked[i])}), not ({_shown(given[i])})"
+        f"body {body.name!r} ({_shown(asked[i], within)}), not ({_shown(given[i], within)})"
         for i, body in enumerate(mechanism.bodies)
-        if np.abs(asked[i] - given[i]).max() > RATES_WITHIN
+        if np.abs(asked[i] - given[i]).max() > within
     ]
     return (
         f" They ask for other ones: {', '.join(bodies)} (of its centre of mass in m/s, and rad/s). Name in held "
@@ -197,9 +199,9 @@ def _contradictions(mechanism: Mechanism, block: Array, closed: Collection[str])
     )
 
 
-def _shown(rates: Array) -> str:
+def _shown(rates: Array, within: float) -> str:
     """Three rates, each as nothing where rounding is all there is."""
-    return ", ".join(f"{0.0 if abs(rate) <= RATES_WITHIN else rate:.6g}" for rate in rates.tolist())
+    return ", ".join(f"{0.0 if abs(rate) <= within else rate:.6g}" for rate in rates.tolist())
 
 
 def _off(mechanism: Mechanism, left: Array, closed: Collection[str], more_than: float = -1.0) -> str:

@@ -312,3 +312,15 @@ COUNTERS_LENGTH = 30
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts
 LEDGER_LENGTH = 1
+
+# columns of the state's scales (`engine.scales`)
+SCALE_LENGTH = 0
+SCALE_MASS = 1
+SCALE_RATE = 2  # from the start; 0 as long as nothing acts and nothing moves
+SCALE_PRESENT = 3  # the rate by what acts since the last event
+SCALES = 4
+# and of those of each body
+BODY_LENGTH = 0  # its own
+BODY_EXTENT = 1  # the largest of what it was joined to at its last event
+BODY_PACE = 2  # the present rate of what it was joined to then
+BODY_SCALES = 3

@@ -16,8 +16,8 @@ from .functions import Number, where_positive
 from .outline_contacts import OutlineContact, OutlineFacts
 from .outlines import Outline
 
-#: A clearance must be larger than this [m]: so near, outlines count as touching, and so deep, as overlapping.
-LEAST_CLEARANCE = 1e-9
+#: A clearance must be larger than this part of the pin's radius: nearer, outlines count as touching.
+LEAST_CLEARANCE = 1e-7
 
 
 class PlayFacts(OutlineFacts):
@@ -130,12 +130,13 @@ class PlayFacts(OutlineFacts):
         text = f"{label}: pin_radius = {{:g}} m, but it must be positive and finite."
         radius = refuse_unless(finite_positive(r), text, r)
         if self.hole_radius is None:
-            text = f"{label}: clearance = {{:g}} m must be positive, finite, and larger than {LEAST_CLEARANCE:g} m: "
+            least = f"larger than {LEAST_CLEARANCE:g} pin_radius"
+            text = f"{label}: clearance = {{:g}} m must be positive, finite, and {least}: "
             shown: tuple[Number, ...] = (c,)
         else:
             text = f"{label}: hole_radius = {{:g}} m must be positive, finite, and larger than pin_radius = {{:g}} m: "
             shown = (self.hole_radius, r)
-        wide = where_positive(c - LEAST_CLEARANCE, finite(c), 0.0)
+        wide = where_positive(c - LEAST_CLEARANCE * r, finite(c), 0.0)
         yield from first(radius, refuse_unless(wide, text + self._instead, *shown))
         text = f"{label}: wear_coefficient = {{:g}} must be finite and not negative."
         yield refuse_unless(finite_not_negative(self.wear_coefficient), text, self.wear_coefficient)

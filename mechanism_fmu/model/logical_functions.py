@@ -21,6 +21,15 @@ from .joints import Joint
 from .mechanism import Mechanism, may_rub, turns
 from .patterns import CircularPattern
 
+#: What tolerances are parts of, by unit: the scales of the mechanism (`engine.scales`); angles are as they are.
+_SCALES = {
+    "m": "of the length scale",
+    "rad": "rad",
+    "m/s": "of the speed scale",
+    "rad/s": "of the rate scale",
+}
+_OF_FORCES = f"{PUSHES_WITHIN:g} of what acts + {PUSHES_SHARE:g} of the largest, by the masses"
+
 
 def exists(part: Contact | CircularPattern) -> bool:
     """Whether a part is there at all, for plain numbers."""
@@ -59,23 +68,29 @@ def definitions(mechanism: Mechanism) -> Iterator[Definition]:
                 f"{pattern.name}.{verb}",
                 f"the point of {pattern.body_i} is beyond the boundary from copy k to copy {copy}",
                 "m",
-                f"{MARGIN:g} m",
+                _margin("m"),
                 f"{pattern.name}.{verb}",
             )
     for function in mechanism.functions:
         unit = "rad" if function.of.endswith(".angle") else "m"
         meaning = f"{function.of} < {function.below:.9g}"
-        yield Definition(function.name, meaning, unit, f"{MARGIN:g} {unit}", function.name)
+        yield Definition(function.name, meaning, unit, _margin(unit), function.name)
+
+
+def _margin(unit: str) -> str:
+    return f"{MARGIN:g} {_SCALES[unit]}"
 
 
 def _of_friction(part: Contact | Joint | ForceElement) -> Iterator[Definition]:
     speed, force = ("rad/s", "N.m") if turns(part) else ("m/s", "N")
-    yield Definition(f"{part.name}.rests", "slip speed = 0", speed, f"{SLIPS_ABOVE:g} {speed}", f"{part.name}.sticks")
+    yield Definition(
+        f"{part.name}.rests", "slip speed = 0", speed, f"{SLIPS_ABOVE:g} {_SCALES[speed]}", f"{part.name}.sticks"
+    )
     yield Definition(
         f"{part.name}.gives",
         "|friction| >= what holds while it sticks",
         force,
-        f"{PUSHES_WITHIN:g} {force} + {PUSHES_SHARE:g} of the largest",
+        _OF_FORCES,
         f"{part.name}.slips",
     )
 
@@ -88,21 +103,21 @@ def _of_contact(contact: Contact) -> Iterator[Definition]:
         f"{name}.touches",
         "gap s <= 0",
         length,
-        f"{TOUCHES_WITHIN:g} {length}; the instant to {ROOT_TOLERANCE:g} s",
+        f"{TOUCHES_WITHIN:g} {_SCALES[length]}; the instant to {ROOT_TOLERANCE:g} of the time scale",
         f"{name}.gap",
     )
-    yield Definition(f"{name}.approaches", "gap rate s' < 0", speed, f"{RESTS_BELOW:g} {speed}")
+    yield Definition(f"{name}.approaches", "gap rate s' < 0", speed, f"{RESTS_BELOW:g} {_SCALES[speed]}")
     yield Definition(
         f"{name}.leaves",
         "gap rate s' > 0, after an impact at least the stick speed",
         speed,
-        f"{RESTS_BELOW:g} {speed}; after an impact {STICK_SPEED:g} {speed}",
+        f"{RESTS_BELOW:g} {_SCALES[speed]}; after an impact {STICK_SPEED:g} {_SCALES[speed]}",
     )
     if not contact.guided > 0.5:
         yield Definition(
             f"{name}.pushes",
             "multiplier > 0",
             force,
-            f"{PUSHES_WITHIN:g} {force} + {PUSHES_SHARE:g} of the largest",
+            _OF_FORCES,
             f"{name}.force",
         )

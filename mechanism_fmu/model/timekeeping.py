@@ -47,7 +47,7 @@ def nominal_period_parameter(start: float) -> Parameter:
         start: default value [s].
     """
     text = "Period of a clock that keeps time, to which rate refers"
-    return Parameter("nominal_period", start, text, "s", 1e-3, 1e3)
+    return Parameter("nominal_period", start, text, "s", 1e-6, 1e6)
 
 
 def beat(body: str, nominal_period: Number) -> Oscillation:

@@ -12,7 +12,7 @@ import numpy as np
 from .. import codes
 from ..engine.run import engine_for
 from ..model import Mechanism, MechanismError, Output, compile_mechanism
-from ..model.mechanism import may_rub
+from ..model.mechanism import may_rub, turns
 from ..tables.layout import field_of, pack
 from ..tolerances import SLIPS_ABOVE
 from .simulation import engine_here
@@ -114,7 +114,11 @@ class _Search:
         }
         self._slip[list(self._rubbing)] = codes.FORWARDS
         speeds = self._values()
-        self._slips = {k: _possible(speeds[f"{name}.slip_speed"]) for k, name in self._rubbing.items()}
+        length, _, _, rate = field_of(self._block, "scales").tolist()
+        units = {k: rate * (1.0 if turns(mechanism.rubbing[k]) else length) for k in self._rubbing}
+        self._slips = {
+            k: _possible(speeds[f"{name}.slip_speed"], SLIPS_ABOVE * units[k]) for k, name in self._rubbing.items()
+        }
         self._bodies = bodies
 
     def solutions(self) -> Iterator[FrictionSolution]:
@@ -189,9 +193,9 @@ class _Search:
         )
 
 
-def _possible(speed: float) -> tuple[int, ...]:
+def _possible(speed: float, slips_above: float) -> tuple[int, ...]:
     """How what has this slip speed may go on."""
-    if abs(speed) <= SLIPS_ABOVE:
+    if abs(speed) <= slips_above:
         return codes.STICKS, codes.FORWARDS, codes.BACKWARDS
     return (codes.FORWARDS,) if speed > 0.0 else (codes.BACKWARDS,)
 

@@ -85,16 +85,18 @@ _EVENT = {
 class Course(Table):
     """How far the motion has come.
 
-    Clock, counters and ledger (columns in `codes`); of each body, when its run of events without progress began, and
-    how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end
-    of the engine's own step, and the step's dense output; how independent the active rows are there (see `singular`);
-    the last impact, and impacts and events of the last communication step, in buffers that go round.
+    Clock, counters, ledger, scales, and those of each body (columns in `codes`); when its run of events without
+    progress began, and how many there were; y = (q, qd, work, loss, alpha, own) and its derivative at the end of the
+    engine's own step, and the step's dense output; how independent the active rows are there (see `singular`); the last
+    impact, and impacts and events of the last communication step, in buffers that go round.
     """
 
     clock = real(codes.CLOCK_LENGTH, holds=_CLOCK)
     counters = integer(codes.COUNTERS_LENGTH, holds=_COUNTERS)
     ledger = real(codes.LEDGER_LENGTH, holds=FINITE)
+    scales = real(codes.SCALES, holds=NOT_NEGATIVE)
     accumulation = real("bodies", 2, holds=FINITE)
+    body_scales = real("bodies", codes.BODY_SCALES, holds=NOT_NEGATIVE)
     y_end = real("unknowns", holds=FINITE)
     dy_end = real("unknowns", holds=ANY)
     dense = real(METHOD.dense_rows, "unknowns", holds=FINITE)
@@ -141,6 +143,8 @@ class Rows(Table):
 
 class LinearSystem(Table):
     """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution.
+
+    `level` is the rounding of the multipliers (`engine.dynamics.rounding`).
 
     `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
     share of its squared length that is left after projection. A row of `scaled` has three entries of each of the
@@ -199,6 +203,7 @@ class LinearSystem(Table):
     row_norm = real("rows", 3, work=True)
     coefficient = real("rows", work=True)
     dual = real("rows", work=True)
+    level = real(1, work=True)
     rank = integer(1, work=True)
     independence = real(1, work=True)
 
@@ -206,18 +211,22 @@ class LinearSystem(Table):
 class Loads(Table):
     """Generalised forces [N, N m].
 
-    `force` acts; `applied` is its part without friction; `torque` is that of each force element on its body, `rubbing`
-    that of the friction in each joint (a force in sliders); the accelerations that the forces alone would give;
-    assembly weights; the multipliers of the last round of the friction iteration.
+    `force` acts, and `size` is the sum of its terms' magnitudes; `applied` is its part without friction; `torque` is
+    that of each force element on its body, `rubbing` that of the friction in each joint (a force in sliders); the
+    accelerations that the forces alone would give; assembly weights; the multipliers of the last round of the friction
+    iteration; one over the time in which each body moves at an event, and how far all reach, in scale.
     """
 
     force = real("columns", work=True)
+    size = real("columns", work=True)
     applied = real("columns", work=True)
     torque = real("forces", work=True)
     rubbing = real("joints", work=True)
     last_multiplier = real("rows", work=True)
     free_acceleration = real("columns", work=True)
     weight = real("columns", work=True)
+    haste = real("bodies", work=True)
+    reach = real("bodies", work=True)
 
 
 class Stages(Table, prefix="stage_"):

@@ -6,11 +6,14 @@ import pytest
 from hypothesis import example, given, settings, strategies as st
 
 from mechanism_fmu import codes
+from mechanism_fmu.engine.dynamics.scaling import LENGTH, RATE
 from mechanism_fmu.model import GROUND, Body, Force, Mechanism, Output, PointLineContact, Settings
 from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import STICK_SPEED
 
 GRAVITY = 9.81
+#: Of a ball with a radius of gyration of 1 m that falls, over what has scale 1 (`dynamics.scaling`).
+SPEED_SCALE = math.sqrt(GRAVITY) / (LENGTH * RATE)
 
 
 def ball(restitution, *, height=1.0, mass=1.0, tolerance=1e-12, contacts=1):
@@ -19,7 +22,7 @@ def ball(restitution, *, height=1.0, mass=1.0, tolerance=1e-12, contacts=1):
         for k in range(contacts)
     ]
     return Mechanism(
-        bodies=(Body("ball", mass, 1.0, (0.0, height, 0.0)),),
+        bodies=(Body("ball", mass, mass, (0.0, height, 0.0)),),
         forces=(Force("weight", "ball", (0.0, -mass * GRAVITY)),),
         contacts=tuple(floor),
         outputs=(
@@ -38,7 +41,7 @@ def bounces(height, restitution):
     speed = math.sqrt(2 * GRAVITY * height)
     time = speed / GRAVITY
     found = [(time, speed)]
-    while restitution * speed >= STICK_SPEED:
+    while restitution * speed >= SPEED_SCALE * STICK_SPEED:
         speed *= restitution
         time += 2 * speed / GRAVITY
         found.append((time, speed))

@@ -358,7 +358,7 @@ BAD = {
     "larger": ({"pin_radius": 0.02, "hole_radius": 0.01}, "use Revolute."),
     "without play": (
         {"pin_radius": 0.01, "clearance": 0.0},
-        "clearance = 0 m must be positive, finite, and larger than 1e-09 m",
+        "clearance = 0 m must be positive, finite, and larger than 1e-07 pin_radius",
     ),
     "no radius": ({"pin_radius": 0.0, "clearance": 0.1}, "pin_radius = 0 m, but it must be positive and finite."),
     "nothing": ({"pin_radius": 0.01}, "it takes a hole_radius or a clearance, and neither is given; give one of them."),

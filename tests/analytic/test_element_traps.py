@@ -158,9 +158,9 @@ def test_a_free_angle_is_no_angle_from_the_start():
 
 def test_tolerances_on_the_pages_are_those_of_the_engine():
     text = " ".join((DOCS / "point_line_contact.md").read_text(encoding="utf-8").split())
-    assert re.search(r"negative \(by more than 1 nm\)", text)
-    assert tolerances.TOUCHES_WITHIN == 1e-9
-    assert re.search(r"Below a speed of 1 µm/s after an impact", text)
-    assert tolerances.STICK_SPEED == 1e-6
+    assert re.search(r"negative \(by more than 1e-10 of the", text)
+    assert tolerances.TOUCHES_WITHIN == 1e-10
+    assert re.search(r"Below 1e-7 of the scale of speeds after an impact", text)
+    assert tolerances.STICK_SPEED == 1e-7
     assert "passed by 1e-10" in (DOCS / "logical_function.md").read_text(encoding="utf-8")
     assert tolerances.MARGIN == 1e-10

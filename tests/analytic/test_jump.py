@@ -61,11 +61,11 @@ def one_of_each_instant(impacts):
 @given(speed=st.floats(1e-6, 1e3), restitution=st.just(0.0) | st.floats(0.0, 1.0))
 def test_a_wheel_at_a_stop_jumps_by_its_whole_speed_and_what_comes_back(speed, restitution):
     """And its teeth have the stress of that: of its whole speed when it is stopped dead, none as that goes to 0."""
-    assume(abs(restitution * speed / STICK_SPEED - 1) > 1e-6)
+    assume(restitution == 0.0 or restitution > 2 * STICK_SPEED)  # below this part of what moves, it sticks
     simulation = wheel(AngleStop("stop", "wheel", GROUND, -0.5, restitution=restitution), speed=-speed)
     simulation.advance(0.6 / speed)
     (hit,) = simulation.impacts_in_step()
-    returned = restitution if restitution * speed >= STICK_SPEED else 0.0
+    returned = restitution
     assert hit.velocity == pytest.approx(LENGTH * speed * (1 + returned), rel=1e-9)
     assert hit.energy_lost == pytest.approx(0.1 * speed**2 * (1 - returned**2), rel=1e-9, abs=1e-12 * speed**2)
     tooth = WedgeTooth(LENGTH, 1.0)
@@ -153,7 +153,7 @@ def test_jumps_telescope_to_the_change_of_the_rate_that_impacts_made(speed, othe
     after = simulation.read()
     assert instants
     # A contact that comes to rest without an impact takes a leftover below `RESTS_BELOW` with it.
-    leftover = 4 * RESTS_BELOW if rested else 0.0
+    leftover = 4 * RESTS_BELOW * speed if rested else 0.0  # of the scale of what moves
     made = sum(instant.velocity for instant in instants)
     assert made == pytest.approx(LENGTH * (after["speed"] + speed), abs=1e-12 * max(1.0, speed) + LENGTH * leftover)
     lost = math.fsum(i.energy_lost for i in instants)

@@ -143,7 +143,7 @@ def test_multipliers_of_a_bouncing_ball_are_those_of_its_map(side: float) -> Non
     later = T / (leaves + STRUCK_AT)  # d(time of flight) / d(speed)
     matrix = [[1.0, later], [(1 + E) * acceleration, -E + (E * G + (1 + E) * acceleration) * later]]
     exact = np.linalg.eigvals(np.array(matrix))
-    key = {"key": lambda m: (m.real, m.imag)}
+    key = {"key": lambda m: (round(m.real, 9), m.imag)}
     np.testing.assert_allclose(
         sorted(found.multipliers.tolist(), **key), sorted(exact.tolist(), **key), rtol=0, atol=1e-8
     )

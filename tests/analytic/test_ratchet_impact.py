@@ -9,7 +9,7 @@ import pytest
 from ratchet_table import PRINTED, TABLE
 
 from benchmarks.ratchet import Parameters, build
-from benchmarks.reference import simulate
+from benchmarks.reference import STICK_SPEED, simulate
 from mechanism_fmu import codes
 from mechanism_fmu.simulation import Simulation
 from models.ratchet.model import MODEL
@@ -63,8 +63,14 @@ def test_other_designs_agree_with_the_plain_implementation(changes):
     for time in np.linspace(0, 1.2, 241):
         simulation.advance(time)
         hits += simulation.field("impacts")[: simulation.counters.item(codes.COUNT_IN_STEP)].tolist()
-    assert len(hits) == len(plain.impacts) >= 1
-    for found, expected in zip(hits, plain.impacts, strict=True):
+    last = len(plain.impacts)
+    assert len(hits) >= last >= 1
+    if len(hits) > last:  # hops that begin where the plain one takes it for resting
+        last -= 1
+        assert plain.impacts[last].sticks
+        for hit in hits[last:]:
+            assert parameters["restitution"] * hit[codes.RECORD_CLOSING_SPEED] < STICK_SPEED
+    for found, expected in zip(hits[:last], plain.impacts[:last], strict=True):
         assert found[codes.RECORD_TIME] == pytest.approx(expected.time, abs=1e-9)
         assert found[codes.RECORD_CLOSING_SPEED] == pytest.approx(expected.closing_speed, abs=1e-10)
         impulses = found[codes.RECORD_CONTACT_IMPULSES :][:3]

@@ -20,6 +20,7 @@ from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..outlines.features import CORNERS_TOUCH, FAR, radius_of, turning_of_copy
+from ..scales import length_scale
 from .entries import begin_row
 
 
@@ -72,7 +73,7 @@ def outline_row(block: Array, at: Pose, contact: int, row: int, slides: bool) ->
     else:
         other = radius_of(block, g)
         if Features(block).kind[f] == codes.VERTEX and Features(block).kind[g] == codes.VERTEX:
-            other = CORNERS_TOUCH
+            other = CORNERS_TOUCH * length_scale(block)
         _disc_on_disc(block, at, row, slides, i, j, ax, ay, radius_of(block, f), bx, by, other)
 
 

@@ -225,18 +225,26 @@ def turning_rate(block: Array, y: Array, count: int) -> float:
 
 
 @jit
+def row_response(block: Array, row: int) -> float:
+    """Acceleration along a row by a unit force along it, by the masses of its two bodies: J M^-1 J^T."""
+    out = Rows(block)
+    inverse = Bodies(block).inverse_mass
+    total = 0.0
+    for end in range(2):
+        first = 3 * out.body[row, end]
+        for k in range(first, min(first + 3, Sizes(block).coordinates)):
+            total += out.jacobian[row, k] * out.jacobian[row, k] * inverse[k]
+    return total
+
+
+@jit
 def _turning(block: Array, row: int, after: int) -> float:
     """The sum of gamma^2 / (Phi_q M^-1 Phi_q^T) over rows."""
     keep_small()
     out = Rows(block)
-    inverse = Bodies(block).inverse_mass
     total = 0.0
     for r in range(row, after):
-        response = 0.0
-        for end in range(2):
-            first = 3 * out.body[r, end]
-            for k in range(first, min(first + 3, Sizes(block).coordinates)):
-                response += out.jacobian[r, k] * out.jacobian[r, k] * inverse[k]
+        response = row_response(block, r)
         if response > 0.0:
             total += out.gamma[r] * out.gamma[r] / response
     return total

@@ -17,9 +17,10 @@ from ..constraints.outline_row import place_feature, turning_of
 from ..outlines.features import AT_A_CORNER, beside, faces_corner, is_corner
 from ..outlines.held import is_one_with
 from ..outlines.nearest import FREE, MEETS, OVERLAP, look_no_deeper, nearest
+from ..scales import length_scale
 
-#: Outlines that reach farther into each other than this do not touch, but overlap [m].
-OVERLAPS = 1e-9
+#: Outlines that reach farther into each other than this do not touch, but overlap, in the scale of lengths.
+OVERLAPS = 1e-10
 
 
 @jit
@@ -99,6 +100,7 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
     """
     keep_apart()
     table = Contacts(block)
+    near = TOUCHES_WITHIN * length_scale(block)
     island = Strikes(block).island
     look_no_deeper(block, 0.0)
     for c in range(table.mode.shape[0]):
@@ -119,10 +121,10 @@ def bind_what_touches(block: Array, at: Pose, struck: int) -> int:
             continue
         if island[table.body_i[c]] == codes.NONE and island[table.body_j[c]] == codes.NONE:
             continue
-        if table.apart[c] > TOUCHES_WITHIN and not _is_bound(block, c):
+        if table.apart[c] > near and not _is_bound(block, c):
             continue  # as far as its outlines are apart, nothing that has happened concerns it
         table.apart[c] = 0.0
-        while nearest(block, at, c, FREE) <= TOUCHES_WITHIN:
+        while nearest(block, at, c, FREE) <= near:
             place = free_place(block, c)
             if place == codes.NONE:
                 return status.FEW_POINTS
@@ -167,11 +169,12 @@ def _is_past(
     ax, ay, _, _ = place_feature(block, at, i, of_corner, copy_of_corner, corner)
     along = dx * (at.x[i] + ax - at.x[j] - bx) + dy * (at.y[i] + ay - at.y[j] - by)
     way = -1
-    if abs(along) >= AT_A_CORNER:
+    at_a_corner = AT_A_CORNER * length_scale(block)
+    if abs(along) >= at_a_corner:
         along = Features(block).data[segment, codes.FEATURE_LENGTH] - along
         way = 1
     end = beside(block, outline, segment, way)
-    if abs(along) >= AT_A_CORNER or end == codes.NONE or not is_corner(block, end):
+    if abs(along) >= at_a_corner or end == codes.NONE or not is_corner(block, end):
         return False
     c, s = turning_of(block, at, i, of_corner, copy_of_corner)
     return not faces_corner(block, corner, c * dy - s * dx, -c * dx - s * dy)
@@ -186,7 +189,7 @@ def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
     keep_apart()
     table = Contacts(block)
     found = codes.NONE
-    least = -OVERLAPS
+    least = -OVERLAPS * length_scale(block)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
             gap = nearest(block, at, c, OVERLAP)

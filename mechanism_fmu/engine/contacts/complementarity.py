@@ -21,21 +21,19 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Rubs, Strikes
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import PILED, PUSHES_SHARE, PUSHES_WITHIN
+from ...tolerances import PILED
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, holding, rubs, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
+from ..dynamics.rounding import force_rounding, impulse_rounding, note_level, over_rounding
 from ..dynamics.sliding import hold
-from ..vectors import largest
 from .participation import island_of
 from .proposal import CONES, SPLIT, propose
 from .trial import COUNT, FORCES, IMPULSES, ISLAND, KIND, SHOCK, excess, slip_change, try_modes
 
-#: An impulse may be missing this share of the largest one.
-_IMPULSE_SHARE = 1e-11
-#: And stick may lack this share of its own impulse, where no approach but friction calls for an impulse: motions end
+#: Stick may lack this share of its own impulse, where no approach but friction calls for an impulse: motions end
 #: there where stick is at its bound (a stop is named from 1e-6 of that on, `stepping.step_size`), and drift is mended.
 _SHOCK_SHARE = 1e-6
 _MOST_PIVOTS = 64
@@ -69,25 +67,17 @@ def push_forces(block: Array, at: Pose) -> int:
 
 
 @jit
-def push_tolerance(block: Array, count: int) -> float:
-    """What a force may pull before it counts [N], by the forces along all `count` rows."""
-    tolerance: float = PUSHES_WITHIN + PUSHES_SHARE * largest(LinearSystem(block).multiplier, count)
-    return tolerance
+def push_ratio(block: Array, contact: int) -> float:
+    """A closed contact's force over its rounding, behind `note_level`; it pulls below -1, and opens below -2."""
+    row = Contacts(block).row[contact]
+    return over_rounding(block, LinearSystem(block).multiplier[row], row)
 
 
 @jit
-def push_ratio(block: Array, contact: int, tolerance: float) -> float:
-    """A closed contact's force over the tolerance; it pulls below -1, and opens below -2."""
-    ratio: float = LinearSystem(block).multiplier[Contacts(block).row[contact]] / tolerance
-    return ratio
-
-
-@jit
-def hold_ratio(block: Array, rub: int, tolerance: float) -> float:
-    """What friction of what sticks could hold more, over the tolerance; it slips below -2."""
+def hold_ratio(block: Array, rub: int) -> float:
+    """What friction of what sticks could hold more, over its rounding, behind `note_level`; it slips below -2."""
     keep_small()
-    ratio: float = hold(block, rub) / tolerance
-    return ratio
+    return over_rounding(block, hold(block, rub), Rubs(block).row[rub])
 
 
 @jit
@@ -267,8 +257,7 @@ def _first_wrong(block: Array, at: Pose) -> int:
     mode = Contacts(block).mode
     candidates = Strikes(block).candidates
     impulses = Strikes(block).problem[KIND] == IMPULSES
-    active = try_modes(block, at)
-    tolerance = push_tolerance(block, active)
+    note_level(block, try_modes(block, at))
     pulls_below = -1.0
     if Course(block).counters[codes.PILE] >= PILED:  # what hardly pulls at this instant does so more at the same one
         pulls_below = -_HARDLY
@@ -276,16 +265,16 @@ def _first_wrong(block: Array, at: Pose) -> int:
         c = candidates[k]
         if mode[c] == codes.CLOSED:
             if impulses:
-                multiplier = LinearSystem(block).multiplier
-                pulls = multiplier[Contacts(block).row[c]] < -_IMPULSE_SHARE * largest(multiplier, active)
+                row = Contacts(block).row[c]
+                pulls = LinearSystem(block).multiplier[row] < -impulse_rounding(block, row)
             else:
-                pulls = push_ratio(block, c, tolerance) < pulls_below
+                pulls = push_ratio(block, c) < pulls_below
             if pulls or _comes_off(block, c):
                 return k
         elif _goes_in(block, at, c):
             return k
     if rubs(block):
-        wrong = _first_wrong_rub(block, at, active)
+        wrong = _first_wrong_rub(block, at)
         if wrong != codes.NONE:
             count: int = Strikes(block).problem[COUNT]
             return count + wrong
@@ -293,23 +282,22 @@ def _first_wrong(block: Array, at: Pose) -> int:
 
 
 @jit
-def _first_wrong_rub(block: Array, at: Pose, active: int) -> int:
+def _first_wrong_rub(block: Array, at: Pose) -> int:
     """The first that sticks beyond its cone, or slips against its friction's direction; `codes.NONE`: none."""
     keep_apart()
     table = Rubs(block)
     multiplier = LinearSystem(block).multiplier
     spare = spare_row(block)
-    tolerance = PUSHES_WITHIN + PUSHES_SHARE * largest(multiplier, active)
-    if Strikes(block).problem[KIND] == IMPULSES:
-        tolerance = _IMPULSE_SHARE * largest(multiplier, active)
-    shock = Strikes(block).problem[KIND] == IMPULSES and Strikes(block).problem[SHOCK] == 1
+    impulses = Strikes(block).problem[KIND] == IMPULSES
+    shock = impulses and Strikes(block).problem[SHOCK] == 1
     for k in range(table.slip.shape[0]):
         if not _is_free_here(block, k) or not touches(block, k):
             continue
         if table.slip[k] == codes.STICKS:
-            lacks = tolerance
+            row = table.row[k]
+            lacks = impulse_rounding(block, row) if impulses else force_rounding(block, row)
             if shock:
-                lacks = max(lacks, _SHOCK_SHARE * abs(multiplier[table.row[k]]))
+                lacks = max(lacks, _SHOCK_SHARE * abs(multiplier[row]))
             if not hold(block, k) >= -lacks:
                 return k
             left, rounding = slip_change(block, table.row[k])

@@ -9,14 +9,16 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Loads, Pose, Rubs, Stages, Strikes
+from ...tables.motion import Course, LinearSystem, Loads, Pose, Rubs, Stages, Strikes
 from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, holding
 from ..constraints.rows import row_count
-from ..vectors import copy, largest
-from .complementarity import agrees, combination_count, combine_modes, leaves, push_tolerance
+from ..dynamics.rounding import note_level
+from ..scales import length_scale
+from ..vectors import copy
+from .complementarity import agrees, combination_count, combine_modes, leaves
 from .event_record import WITHIN, keep_event, note_mode
 from .shared_forces import undetermined
 from .trial import COUNT
@@ -127,10 +129,13 @@ def _differ(block: Array, chosen: Array) -> bool:
     trial = Course(block).dy_end
     if math.isnan(trial[Sizes(block).y_loss]):
         return False
-    difference = 0.0
-    size = largest(Loads(block).free_acceleration, n)
-    for k in range(n, 2 * n):
-        difference = max(difference, abs(trial[k] - chosen[k]))
-        size = max(size, abs(chosen[k]))
-    lacking = push_tolerance(block, row_count(block)) * largest(Bodies(block).inverse_mass, n)
+    note_level(block, row_count(block))
+    level = LinearSystem(block).level[0]
+    length = length_scale(block)
+    difference = size = lacking = 0.0
+    for k in range(n):
+        unit = 1.0 if k % 3 == 2 else length
+        difference = max(difference, abs(trial[n + k] - chosen[n + k]) / unit)
+        size = max(size, max(abs(chosen[n + k]), abs(Loads(block).free_acceleration[k])) / unit)
+        lacking = max(lacking, level * Bodies(block).inverse_root_mass[k] / unit)
     return difference > _DIFFERS * size + lacking

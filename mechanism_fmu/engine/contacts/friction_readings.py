@@ -14,8 +14,9 @@ from ..constraints.entries import along_row
 from ..constraints.friction_rows import friction_row, meets, sticks, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
+from ..scales import bodies_of, pace_of, slip_scale
 
-#: An acceleration below this is none [m/s2, rad/s2].
+#: An acceleration below this is none, in the scale of the mechanism.
 _AT_REST = 1e-8
 
 
@@ -47,7 +48,9 @@ def sticks_now(block: Array, at: Pose, index: int, _slot: int, _value: float) ->
         return 0.0
     friction_row(block, at, index, spare_row(block))
     speed = Rows(block).residual_rate[spare_row(block)]
-    rests = abs(speed) <= SLIPS_ABOVE and abs(_along_spare(block)) <= _AT_REST
+    scale = slip_scale(block, index)
+    i, j = bodies_of(block, index)
+    rests = abs(speed) <= SLIPS_ABOVE * scale and abs(_along_spare(block)) <= _AT_REST * scale * pace_of(block, i, j)
     return 1.0 if rests else 0.0
 
 

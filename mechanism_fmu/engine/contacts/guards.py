@@ -9,7 +9,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Rows, Rubs, Strikes
 from ...tables.parts import Contacts, Functions, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import MARGIN, TOUCHES_WITHIN
+from ...tolerances import MARGIN, PASSES_BY, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.entries import begin_row
 from ..constraints.friction_rows import friction_row, slips
@@ -18,6 +18,7 @@ from ..constraints.rows import contact_row
 from ..elementary import sine_cosine
 from ..outlines.nearest import EXACT, NEXT, nearest
 from ..profiles.nearest import find_nearest, is_searched
+from ..scales import guard_unit, length_scale
 from .binding import free_place, is_free, is_outline, let_loose, take_found
 from .handover import left_to_go
 
@@ -80,8 +81,8 @@ def turn_line(source: Array, angle: float, target: Array) -> None:
 # In order: the gap of each contact; how far each stop with memory is from its next click, and where outlines touch the
 # place of contact from the end of a feature; how far each pattern's point
 # is from the boundary to the next copy and to the previous one; how far each logical function is from its change; slip
-# speeds. All but gaps and slip speeds are passed by `MARGIN` before they count, so that what has just changed is well
-# inside its new range.
+# speeds. All but gaps and slip speeds are passed by `MARGIN` or `PASSES_BY` before they count, so that what has just
+# changed is well inside its new range.
 
 
 @jit
@@ -194,22 +195,23 @@ def guard_value(block: Array, at: Pose, number: int) -> tuple[float, float]:
             return min(nearest(block, at, subject, NEXT), _least_open(block, at, subject)), 0.0
         return gap(block, at, subject)
     if guard == codes.GUARD_HANDOVER:
-        return left_to_go(block, at, subject)[0] + MARGIN, 0.0
+        return left_to_go(block, at, subject)[0] + PASSES_BY * length_scale(block), 0.0
     if guard == codes.GUARD_CLICK:
         value, rate = gap(block, at, subject)
         return Contacts(block).data[subject, codes.STOP_PITCH] + MARGIN - value, -rate
     if guard == codes.GUARD_STICK:
         return slip_of(block, at, subject), 0.0
+    margin = MARGIN * guard_unit(block, guard, subject)
     if guard == codes.GUARD_FUNCTION:
         value, rate = function_value(block, at, subject)
         if Functions(block).true[subject] == 1:
-            return MARGIN - value, -rate
-        return value + MARGIN, rate
+            return margin - value, -rate
+        return value + margin, rate
     if guard == codes.GUARD_NEXT:
         value, rate = _beyond(block, at, subject, Patterns(block).line[subject, :4])
-        return MARGIN - value, -rate
+        return margin - value, -rate
     value, rate = _beyond(block, at, subject, Patterns(block).line[subject, 4:])
-    return value + MARGIN, rate
+    return value + margin, rate
 
 
 @jit
@@ -226,7 +228,7 @@ def _least_open(block: Array, at: Pose, contact: int) -> float:
             break
         if table.mode[c] == codes.OPEN and table.feature_i[c] != codes.NONE:
             least = min(least, max(gap(block, at, c)[0], left_to_go(block, at, c)[0]))
-    return max(least, TOUCHES_WITHIN)
+    return max(least, TOUCHES_WITHIN * length_scale(block))
 
 
 @jit

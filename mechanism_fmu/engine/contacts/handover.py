@@ -25,6 +25,7 @@ from ..outlines.features import (
     radius_of,
     wrapped,
 )
+from ..scales import contact_speed, length_scale
 from .binding import let_loose
 
 
@@ -165,7 +166,7 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
         else:
             table.feature_j[contact] = follows
         outline_row(block, at, contact, spare_row(block), False)
-        if abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:
+        if abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN * length_scale(block):
             return
     table.mode[contact] = codes.OPEN
     table.touching[contact] = 0
@@ -244,8 +245,8 @@ def _around_corner(block: Array, at: Pose, contact: int, side: int, way: int, co
             table.feature_j[contact] = element if of == 1 else other
             outline_row(block, at, contact, spare_row(block), False)
             is_free_place = not _is_bound_twice(block, contact)
-            if is_free_place and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:
-                if abs(Rows(block).residual_rate[spare_row(block)]) >= RESTS_BELOW:
+            if is_free_place and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN * length_scale(block):
+                if abs(Rows(block).residual_rate[spare_row(block)]) >= RESTS_BELOW * contact_speed(block, contact):
                     table.mode[contact] = codes.OPEN
                     table.touching[contact] = 1
                 return True
@@ -286,8 +287,8 @@ def _cross_seam(block: Array, at: Pose, contact: int, way: int) -> bool:
             continue
         table.copy[contact] = wrapped(block, table.outline_j[contact], copy + step)
         outline_row(block, at, contact, spare_row(block), False)
-        is_there = left_to_go(block, at, contact)[0] >= -TOUCHES_WITHIN
-        if is_there and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN:
+        is_there = left_to_go(block, at, contact)[0] >= -TOUCHES_WITHIN * length_scale(block)
+        if is_there and abs(Rows(block).residual[spare_row(block)]) <= TOUCHES_WITHIN * length_scale(block):
             return True
     table.feature_j[contact] = leaves
     table.copy[contact] = copy

@@ -18,6 +18,7 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
 from ..constraints.wear import wear_by_impact
 from ..dynamics.acceleration import LEAST_DRIFT, mend
+from ..scales import contact_speed, contact_unit
 from .guards import gap
 from .impact_laws import exchange
 from .participation import island_of
@@ -102,9 +103,7 @@ def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
     taking_part = Strikes(block)
     plastic = round_ >= _PLASTIC_FROM
     some = False
-    sticks_below = STICK_SPEED
-    if Course(block).counters[codes.PILE] >= PILED:
-        sticks_below = RESTS_WHERE_PILED
+    piled = Course(block).counters[codes.PILE] >= PILED
     for c in range(table.mode.shape[0]):
         taking_part.role[c] = ABSENT
         taking_part.closing[c] = 0.0
@@ -119,19 +118,22 @@ def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
             taking_part.role[c] = KEPT
             continue
         distance, rate = gap(block, at, c)
+        unit = contact_unit(block, c)
+        rests_below = RESTS_BELOW * contact_speed(block, c)
+        sticks_below = STICK_SPEED * contact_speed(block, c)
         if switched:
             if closed:
                 taking_part.role[c] = KEPT
                 taking_part.target[c] = -rate
-                if abs(rate) > RESTS_BELOW:
+                if abs(rate) > rests_below:
                     taking_part.approached[island] = round_ + 1
                     some = True
-                if abs(rate) >= STICK_SPEED:  # switched on in motion, from either side; below, drift and rounding
+                if abs(rate) >= sticks_below:  # switched on in motion, from either side; below, drift and rounding
                     taking_part.closing[c] = abs(rate)
             continue
-        touches = closed or c == struck or distance <= TOUCHES_WITHIN
-        approaches = not closed and (rate < -RESTS_BELOW or (c == struck and guided and rate < 0.0))
-        if not touches or not (closed or plastic or approaches or rate <= RESTS_BELOW):
+        touches = closed or c == struck or distance <= TOUCHES_WITHIN * unit
+        approaches = not closed and (rate < -rests_below or (c == struck and guided and rate < 0.0))
+        if not touches or not (closed or plastic or approaches or rate <= rests_below):
             continue
         taking_part.role[c] = KEPT if guided else DECIDED
         if guided and not approaches:
@@ -146,6 +148,8 @@ def _cast(block: Array, at: Pose, struck: int, round_: int) -> bool:
             some = True
             taking_part.closing[c] = -rate
             restitution = table.value[c, codes.RESTITUTION]
+            if piled:
+                sticks_below *= RESTS_WHERE_PILED / STICK_SPEED
             if not plastic and restitution * -rate >= sticks_below:
                 taking_part.target[c] = (1.0 + restitution) * -rate
     for c in range(table.mode.shape[0]):
@@ -168,7 +172,7 @@ def _open_what_leaves(block: Array) -> None:
         if taking_part.role[c] == KEPT and taking_part.closing[c] == 0.0:
             continue
         contact_row(block, at, c, spare_row(block))
-        if Rows(block).residual_rate[spare_row(block)] < STICK_SPEED:
+        if Rows(block).residual_rate[spare_row(block)] < STICK_SPEED * contact_speed(block, c):
             table.mode[c] = codes.CLOSED
         else:
             table.mode[c] = codes.OPEN

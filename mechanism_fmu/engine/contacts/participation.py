@@ -15,7 +15,9 @@ from ...tolerances import PILED, RESTS_BELOW, ROOT_TOLERANCE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import BRAKE, rubs
 from ..dynamics.islands import leader_of
+from ..dynamics.scaling import join_scales, take_scales
 from ..outlines.nearest import FREE, look_no_deeper, nearest
+from ..scales import bodies_of, contact_speed, contact_unit, length_scale, rate_scale
 from .binding import free_place, is_free, let_loose, take_found
 from .guards import gap
 
@@ -65,6 +67,18 @@ def find_participants(block: Array, at: Pose, guard: int, subject: int) -> int:
 
 
 @jit
+def share_scales(block: Array) -> None:
+    """Let the bodies of an island that takes part have the time of its fastest one and the length of its largest."""
+    keep_small()
+    for b in range(Sizes(block).bodies):
+        if Strikes(block).island[b] != codes.NONE:
+            join_scales(block, Strikes(block).island[b], b)
+    for b in range(Sizes(block).bodies):
+        if Strikes(block).island[b] != codes.NONE:
+            take_scales(block, Strikes(block).island[b], b)
+
+
+@jit
 def _join(block: Array, i: int, j: int) -> None:
     """Join the islands of two bodies, neither of which is the ground."""
     ground = Sizes(block).bodies
@@ -99,19 +113,6 @@ def _let_guard_take_part(block: Array, guard: int, subject: int) -> None:
 
 
 @jit
-def bodies_of(block: Array, rub: int) -> tuple[int, int]:
-    """The two bodies of friction: of a contact, a joint, or a force element (see `friction_rows`)."""
-    contacts = Sizes(block).contacts
-    if rub < contacts:
-        return Contacts(block).body_i[rub], Contacts(block).body_j[rub]
-    rub -= contacts
-    if rub < Sizes(block).joints:
-        return Joints(block).body_i[rub], Joints(block).body_j[rub]
-    rub -= Sizes(block).joints
-    return Forces(block).body[rub], Forces(block).reaction[rub]
-
-
-@jit
 def _exists_open(block: Array, contact: int) -> bool:
     """Return whether a contact is open, enabled, one-sided, and bound to what it may strike."""
     table = Contacts(block)
@@ -124,7 +125,7 @@ def _touches(block: Array, at: Pose, contact: int) -> bool:
     keep_small()
     if Contacts(block).mode[contact] == codes.CLOSED:
         return True
-    return _exists_open(block, contact) and gap(block, at, contact)[0] <= TOUCHES_WITHIN
+    return _exists_open(block, contact) and gap(block, at, contact)[0] <= TOUCHES_WITHIN * contact_unit(block, contact)
 
 
 @jit
@@ -134,13 +135,14 @@ def _closes_now(block: Array, at: Pose, contact: int) -> bool:
     searched = is_free(block, contact) and Contacts(block).value[contact, codes.ENABLED] > 0.5
     searched = searched and free_place(block, Contacts(block).group[contact]) == contact
     if searched:
-        if nearest(block, at, contact, FREE) > TOUCHES_WITHIN:
+        if nearest(block, at, contact, FREE) > TOUCHES_WITHIN * length_scale(block):
             return False
         take_found(block, contact)
     closes = False
     if _exists_open(block, contact):
         distance, rate = gap(block, at, contact)
-        closes = distance <= -ROOT_TOLERANCE * rate and rate < -RESTS_BELOW
+        closes = distance <= -ROOT_TOLERANCE / rate_scale(block) * rate
+        closes = closes and rate < -RESTS_BELOW * contact_speed(block, contact)
     if searched:
         let_loose(block, contact)
     return closes

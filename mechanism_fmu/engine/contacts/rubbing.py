@@ -11,6 +11,7 @@ from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import coefficient, friction_row, sticks, touches
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
+from ..scales import slip_scale
 from .participation import island_of
 
 
@@ -29,7 +30,7 @@ def part_all(block: Array) -> None:
 def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, least: float) -> None:
     """At rest friction is free to stick, or to slip either way; in motion its direction is known.
 
-    At rest is what slips no faster than `SLIPS_ABOVE`, than `least` [m/s, rad/s], or, where it sticks, than its row may
+    At rest is what slips no faster than `SLIPS_ABOVE`, than `least`, or, where it sticks, than its row may
     drift; and `stopped`, whose slip has just been found to end, whatever speed the instant's rounding leaves. It is
     taken to stick, unless it has just let go: then its row may have drifted, too, and the sign of that speed says
     nothing of where it will slip. Where it has not stuck before, it does so here. What takes no part in the event stays
@@ -56,7 +57,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int, leas
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
         drifts = not begins or let_go
-        if abs(speed) > (max(slips_above, STUCK_BELOW) if drifts else slips_above) and k != stopped:
+        rests_below = max(slips_above, STUCK_BELOW) if drifts else slips_above
+        if abs(speed) > rests_below * slip_scale(block, k) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

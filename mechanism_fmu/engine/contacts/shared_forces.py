@@ -20,9 +20,10 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row, row_count
 from ..dynamics.acceleration import derivative
 from ..dynamics.dependent_rows import take_out_range
+from ..dynamics.rounding import note_level
 from ..dynamics.sliding import eliminate, has_two_sides, normal_force
 from ..vectors import clear
-from .complementarity import push_ratio, push_tolerance
+from .complementarity import push_ratio
 from .trial import COUNT, excess
 
 #: A row of whose squared length less than this is outside the range of all rows is determined: rounding of the
@@ -96,12 +97,12 @@ def _mark_forceless(block: Array, at: Pose) -> int:
     mode = Contacts(block).mode
     for c in range(mode.shape[0]):
         mark[c] = _HAS_FORCE
-    tolerance = push_tolerance(block, row_count(block))
+    note_level(block, row_count(block))
     grazing = 0
     for k in range(Strikes(block).problem[COUNT]):
         c = Strikes(block).candidates[k]
         if mode[c] == codes.CLOSED:
-            if push_ratio(block, c, tolerance) < 1.0:
+            if push_ratio(block, c) < 1.0:
                 mark[c] = _WITHOUT_FORCE
         elif Rubs(block).free[c] == codes.BOUND:
             contact_row(block, at, c, spare_row(block))

@@ -14,8 +14,10 @@ from ..constraints.friction_rows import coefficient, rubs, slips, sticks, touche
 from ..constraints.kinematics import place_bodies
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
+from ..dynamics.scaling import note_rate
 from ..dynamics.sliding import can_move
 from ..dynamics.thresholds import decide_sides
+from ..scales import contact_speed, contact_unit, rate_scale
 from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
 from .doubts import record_doubts
@@ -25,7 +27,7 @@ from .handover import hand_over
 from .impact import MOST_ROUNDS, complete_impacts, keep_impact, strike
 from .impact_laws import shock
 from .inside import is_one_inside
-from .participation import find_participants, island_of, participants_energy
+from .participation import find_participants, island_of, participants_energy, share_scales
 from .rubbing import let_slip, look_at_slip, note_sticks, part, set_noted
 from .trial import COUNT
 
@@ -50,7 +52,8 @@ def release(block: Array, struck: int) -> None:
     for c in range(first, contacts):
         if _may_have_come_off(table, c, struck):
             distance, rate = gap(block, at, c)
-            if distance > GAP_NOISE or (distance > 0.0 and rate < -RESTS_BELOW):
+            unit = contact_unit(block, c)
+            if distance > GAP_NOISE * unit or (distance > 0.0 and rate < -RESTS_BELOW * contact_speed(block, c)):
                 table.touching[c] = 0
                 let_loose(block, c)
 
@@ -66,7 +69,7 @@ def _may_have_come_off(table: Contacts, contact: int, struck: int) -> bool:
 # In this order: the guard's own effect (the next tooth, a click, a logical function); impacts, until nothing
 # approaches; mending of drift; the choice, among the contacts at rest, of those that push. All of it takes no time.
 
-#: So many events within `PILE_TIME` [s] are no motion any more.
+#: So many events within `PILE_TIME`, in the time of the mechanism, are no motion any more.
 MOST_PILED = 2000
 PILE_TIME = 1e-9
 
@@ -83,12 +86,15 @@ def transit(block: Array, guard: int, subject: int) -> int:
     shocks = guard == codes.GUARD_SHOCK
     now = Course(block)
     note_mode(block, EVENT)
+    note_rate(block, 0.0)
     find_participants(block, place_bodies(block, now.y_end), guard, subject)
+    share_scales(block)
     if guard == codes.GUARD_INPUT:
         note_sticks(block)
     outcome = _take_effect(block, guard, subject)
     if outcome != status.OK:
         return outcome
+    share_scales(block)  # with what has joined in
     _note_accumulation(block)
     energy = participants_energy(block)
     work = now.y_end[Sizes(block).y_work]
@@ -160,7 +166,8 @@ def _struck_impulse(block: Array) -> float:
     table = Contacts(block)
     total = 0.0
     for c in range(table.mode.shape[0]):
-        switched_on = table.function[c] != codes.NONE and abs(taking_part.target[c]) > RESTS_BELOW
+        rests_below = RESTS_BELOW * contact_speed(block, c)
+        switched_on = table.function[c] != codes.NONE and abs(taking_part.target[c]) > rests_below
         if taking_part.closing[c] > 0.0 or switched_on:
             total += abs(taking_part.impulse[c])
     return total
@@ -206,7 +213,7 @@ def _take_effect(block: Array, guard: int, subject: int) -> int:
             if (
                 table.function[c] == subject
                 and table.mode[c] == codes.CLOSED
-                and abs(gap(block, at, c)[0]) > CLOSES_WITHIN
+                and abs(gap(block, at, c)[0]) > CLOSES_WITHIN * contact_unit(block, c)
             ):
                 return status.ROW_AWAY
     return status.OK
@@ -255,7 +262,8 @@ def _settle(block: Array, guard: int, subject: int) -> int:
                 near = TOUCHES_WITHIN
                 slow = STICK_SPEED
             distance, rate = gap(block, at, c)
-            if (distance > near and c != fired) or not abs(rate) < slow:
+            is_near = distance <= near * contact_unit(block, c) or c == fired
+            if not (is_near and abs(rate) < slow * contact_speed(block, c)):
                 continue
             table.mode[c] = codes.CLOSED
         Strikes(block).candidates[count] = c
@@ -295,7 +303,8 @@ def _settle(block: Array, guard: int, subject: int) -> int:
     for k in range(count):
         c = Strikes(block).candidates[k]
         table.touching[c] = 1 - table.mode[c]
-        if table.mode[c] == codes.OPEN and -TOUCHES_WITHIN < gap(block, at, c)[0] < -GAP_NOISE:
+        depth = -gap(block, at, c)[0] / contact_unit(block, c)
+        if table.mode[c] == codes.OPEN and GAP_NOISE < depth < TOUCHES_WITHIN:
             table.touching[c] = codes.LEFT_INSIDE
     return outcome
 
@@ -367,7 +376,8 @@ def _note_accumulation(block: Array) -> None:
     now.counters[codes.PILE] = 0
     for b in range(now.accumulation.shape[0]):
         if Strikes(block).island[b] != codes.NONE:
-            if now.clock[codes.STEP_END] - now.accumulation[b, 0] > PILE_TIME:
+            since = now.clock[codes.STEP_END] - now.accumulation[b, 0]
+            if since * rate_scale(block) > PILE_TIME:
                 now.accumulation[b, 0] = now.clock[codes.STEP_END]
                 now.accumulation[b, 1] = 0.0
             now.counters[codes.PILE] = max(now.counters[codes.PILE], int(now.accumulation[b, 1]))

@@ -14,14 +14,9 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import active_rows, contact_row, row_count
 from ..dynamics.acceleration import derivative, scale_rows
 from ..dynamics.linear_solve import solve
+from ..dynamics.rounding import acceleration_rounding, speed_rounding
 from ..dynamics.sliding import slide
 from ..vectors import clear
-
-#: An acceleration [m/s2], or a share of its terms, that may be missing.
-_ACCELERATION = 1e-8
-#: A change of gap rate may be missing this much [m/s], or share of its terms.
-_SPEED = 1e-11
-_SHARE = 1e-12
 
 # strikes.problem: how many candidates there are, what is decided, whether without approach, and for which island alone
 # (`codes.NONE`: for all). (Not arguments: each literal is compiled anew.)
@@ -131,7 +126,6 @@ def _change(block: Array, r: int, left: float) -> tuple[float, float]:
     keep_apart()
     n = Sizes(block).coordinates
     impulses = Strikes(block).problem[KIND] == IMPULSES
-    tolerance = _SPEED if impulses else _ACCELERATION
     size = abs(left)
     for end in range(2):
         first = 3 * Rows(block).body[r, end]
@@ -141,4 +135,4 @@ def _change(block: Array, r: int, left: float) -> tuple[float, float]:
                 change = Bodies(block).inverse_root_mass[k] * LinearSystem(block).solution[k]
             left += Rows(block).jacobian[r, k] * change
             size += abs(Rows(block).jacobian[r, k] * change)
-    return left, tolerance + _SHARE * size
+    return left, speed_rounding(block, r, size) if impulses else acceleration_rounding(block, r)

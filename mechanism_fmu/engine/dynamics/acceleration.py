@@ -15,7 +15,7 @@ from ..constraints.rows import active_rows, drift_power, driver_power, follow_op
 from ..constraints.wear import wear_by_sliding
 from ..outlines.advance import come_nearer
 from ..profiles.nearest import settle_contact_points
-from ..vectors import largest
+from ..scales import largest_off, length_scale, rate_scale
 from .forces import apply_forces
 from .linear_solve import KEEP, STANDS, factorise, solve, solve_again, write_matrix
 from .sliding import slide
@@ -86,7 +86,7 @@ def scale_rows(block: Array, count: int) -> None:
 
 # Back to the constraints, when integration has drifted off them.
 
-#: Active rows may be off by this: in position [m, rad, m2], and in their rates [m/s, rad/s].
+#: Active rows may be off by this, and their rates, in the scales of the mechanism (`scales.row_unit`).
 MOST_DRIFT = 1e-11
 MOST_RATE_DRIFT = 1e-10
 #: Where rows bend, as that of a pin in a hole with little play, one correction leaves some of a large drift. Rows that
@@ -129,7 +129,7 @@ def close_rows(block: Array, y: Array, most: float, most_rate: float) -> bool:
     keep_small()
     n = Sizes(block).coordinates
     count, moved = close_positions(block, y, most)
-    if moved or largest(Rows(block).residual_rate, count) > most_rate:
+    if moved or largest_off(block, Rows(block).residual_rate, count) > most_rate * rate_scale(block):
         correct(block, count, Rows(block).residual_rate, y[n:])
         moved = True
     return moved
@@ -145,14 +145,14 @@ def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
     at = place_bodies(block, y)
     settle_contact_points(block, at, y)
     count = active_rows(block, at)
-    if not largest(Rows(block).residual, count) > most:
+    if not largest_off(block, Rows(block).residual, count) > most:
         return count, False
     for _ in range(_CORRECTIONS):
         come_nearer(block, correct(block, count, Rows(block).residual, y))
         at = place_bodies(block, y)
         settle_contact_points(block, at, y)
         count = active_rows(block, at)
-        if not largest(Rows(block).residual, count) > MOST_DRIFT:
+        if not largest_off(block, Rows(block).residual, count) > MOST_DRIFT:
             break
     return count, True
 
@@ -180,15 +180,16 @@ def take_off(block: Array, count: int, part: float, values: Array) -> None:
 
 @jit
 def _change(block: Array, count: int, values: Array) -> float:
-    """Values += M^-1/2 z with the least z of D z = `right_side`; return the most by which one is changed."""
+    """Values += M^-1/2 z with the least z of D z = `right_side`; return the most by which one is changed, in scale."""
     keep_apart()
     n = Sizes(block).coordinates
     root = Bodies(block).inverse_root_mass
     system = LinearSystem(block)
     solve(block, count, n)
+    length = length_scale(block)
     most = 0.0
     for k in range(n):
         change = root[k] * system.solution[k]
         values[k] += change
-        most = max(most, abs(change))
+        most = max(most, abs(change) if k % 3 == 2 else abs(change) / length)
     return most

@@ -40,6 +40,8 @@ def turn(block: Array, k: int, torque: float) -> None:
     load.torque[k] = torque
     load.force[3 * table.body[k] + 2] += torque
     load.force[3 * table.reaction[k] + 2] -= torque
+    load.size[3 * table.body[k] + 2] += abs(torque)
+    load.size[3 * table.reaction[k] + 2] += abs(torque)
 
 
 @jit
@@ -49,6 +51,10 @@ def push(block: Array, body: int, px: float, py: float, fx: float, fy: float) ->
     force[3 * body] += fx
     force[3 * body + 1] += fy
     force[3 * body + 2] += px * fy - py * fx
+    size = Loads(block).size
+    size[3 * body] += abs(fx)
+    size[3 * body + 1] += abs(fy)
+    size[3 * body + 2] += abs(px * fy) + abs(py * fx)
 
 
 @jit

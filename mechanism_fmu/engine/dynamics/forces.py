@@ -52,6 +52,7 @@ def apply_forces(block: Array, at: Pose, y: Array, dy: Array) -> tuple[float, fl
     Derivatives of own states go to their place in `dy`, shape (unknowns,).
     """
     clear(Loads(block).force)
+    clear(Loads(block).size)
     kind = Forces(block).kind
     given = lost = 0.0
     for k in range(kind.shape[0]):

@@ -17,8 +17,21 @@ from ..compiler.subset import jit, keep_small
 from .element import Element, relative_speed, turn
 
 CONSTANT, RESISTANCE, INDUCTANCE, VOLTAGE_LIMIT, GAIN, INTEGRAL_GAIN, ANTI_WINDUP, SPEED = FORCES.places("dc_motor")
+_MOTOR = FORCES.number("dc_motor")
 #: States of a motor's own: current [A], and the integral of the error of speed [rad].
 CURRENT, INTEGRAL = range(2)
+
+
+@jit
+def winding_rate(block: Array) -> float:
+    """One over the shortest time in which the current of a motor settles [1/s]; 0 where there is none."""
+    keep_small()
+    table = Forces(block)
+    rate = 0.0
+    for k in range(table.kind.shape[0]):
+        if table.kind[k] == _MOTOR:
+            rate = max(rate, table.data[k, RESISTANCE] / table.data[k, INDUCTANCE])
+    return rate
 
 
 @jit

@@ -52,6 +52,9 @@ def _force(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float, 
     given += data[X] * at.x_rate[body]
     force[3 * body + 1] += data[Y]
     given += data[Y] * at.y_rate[body]
+    size = Loads(block).size
+    size[3 * body] += abs(data[X])
+    size[3 * body + 1] += abs(data[Y])
     return given, lost
 
 
@@ -116,13 +119,8 @@ def _between(block: Array, at: Pose, k: int, _y: Array, _dy: Array, given: float
     pull, comes_in, goes = _pull(block, k, line)
     fx = pull * line.ux
     fy = pull * line.uy
-    force = Loads(block).force
-    force[3 * i] += fx
-    force[3 * i + 1] += fy
-    force[3 * i + 2] += line.ax * fy - line.ay * fx
-    force[3 * j] -= fx
-    force[3 * j + 1] -= fy
-    force[3 * j + 2] -= line.bx * fy - line.by * fx
+    push(block, i, line.ax, line.ay, fx, fy)
+    push(block, j, line.bx, line.by, -fx, -fy)
     return given + comes_in, lost + goes
 
 

@@ -18,6 +18,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, friction_row, holding, slips, sticks
 from ..constraints.point_line import spare_row
+from ..scales import friction_unit
 from .linear_solve import solve_again
 
 #: Newton's method ends when no friction changes by more than this part of the largest.
@@ -183,8 +184,9 @@ def _newton(block: Array, number: int, part: float) -> bool:
         for a in range(number):
             k = table.sliding[a]
             table.force[k] += table.matrix[a, number]
-            change = max(change, abs(table.matrix[a, number]))
-            largest = max(largest, abs(table.force[k]))
+            unit = friction_unit(block, k)  # forces and torques alike: what they do along the mechanism's own ways
+            change = max(change, abs(table.matrix[a, number]) * unit)
+            largest = max(largest, abs(table.force[k]) * unit)
         if change <= _AGREE * largest or 0.5 * before < change <= _NEARLY * largest:
             return True
         if not change < math.inf:

@@ -14,6 +14,7 @@ from ...tables.parts import Curves, Forces, Operations, Thresholds
 from ...tolerances import PILED
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
+from ..scales import rate_scale
 from .element import relative_angle, relative_speed
 from .laws import WHERE, carry_out
 from .point_forces import DAMPING, FREE_LENGTH, PRELOAD, SIDE, STIFFNESS, line_between
@@ -25,8 +26,8 @@ _ADD = OPERATIONS.number("add")
 _SUBTRACT = OPERATIONS.number("subtract")
 #: A sum is zero within this part of its terms: each of them carries a rounding, and so does the sum (4 half ulps).
 _ROUNDING = 4.0 * 2.0**-53
-#: Crossings of one threshold within this time [s] are without progress: `PILED` of them, as by a law that jumps back at
-#: its own condition, and each evaluation decides for itself.
+#: Crossings of one threshold within this part of the mechanism's time are without progress: `PILED` of them, as by a
+#: law that jumps back at its own condition, and each evaluation decides for itself.
 NO_PROGRESS = 1e-9
 
 
@@ -136,7 +137,7 @@ def change_sides(block: Array) -> bool:
     time = Course(block).clock[codes.STEP_END]
     changed = False
     for n in range(table.side.shape[0]):
-        if time - table.since[n] > NO_PROGRESS and table.crossings[n] > 0:
+        if (time - table.since[n]) * rate_scale(block) > NO_PROGRESS and table.crossings[n] > 0:
             table.since[n] = time
             table.crossings[n] = 0
             if table.side[n] == codes.UNDECIDED:

@@ -19,6 +19,7 @@ from ..contacts.binding import deepest_overlap, is_outline
 from ..contacts.guards import gap
 from ..contacts.inside import blame
 from ..dynamics.oscillation import observe
+from ..scales import contact_unit
 from ..stepping.step import watch_at
 from ..vectors import copy
 from .indicators import can_happen, evaluate, measure, unseen, what_forbids
@@ -76,7 +77,7 @@ def look_through(block: Array) -> int:
     for c in range(table.leaves.shape[0]):
         if size > 0.0 and _is_looked_at(block, c):
             distance, rate = gap(block, at, c)
-            depth = _deepest(table.seen[c, 0], table.seen[c, 1], distance, rate, size)
+            depth = _deepest(table.seen[c, 0], table.seen[c, 1], distance, rate, size, contact_unit(block, c))
             if depth > 0.0:
                 blame(block, c, -depth)
                 return status.PASSED_OVER
@@ -112,15 +113,16 @@ def _begins_to_rub(block: Array) -> bool:
 
 
 @jit
-def _deepest(before: float, rate_before: float, after: float, rate_after: float, size: float) -> float:
+def _deepest(before: float, rate_before: float, after: float, rate_after: float, size: float, unit: float) -> float:
     """How far below zero a gap has been that nothing has said, or 0: within the step, or since the step before.
 
     A gap that is below zero at the end of this step is what an importer without a root finder goes into event mode for.
     """
     keep_small()
-    if before < -TOUCHES_WITHIN and after < -TOUCHES_WITHIN:
+    touches_within = TOUCHES_WITHIN * unit
+    if before < -touches_within and after < -touches_within:
         return -after
-    shallow = TOUCHES_WITHIN + _DIP_SHARE * (abs(before) + abs(after))
+    shallow = touches_within + _DIP_SHARE * (abs(before) + abs(after))
     if not (before > 0.0 and after > 0.0 and rate_before < 0.0 < rate_after):
         return 0.0
     left = 0.0

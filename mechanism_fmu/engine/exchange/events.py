@@ -28,19 +28,21 @@ from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_position
 from ..dynamics.forces import inputs_changed, take_inputs
 from ..dynamics.thresholds import change_sides
 from ..outlines.nearest import MEETS, look_no_deeper, nearest
-from ..stepping.step_size import left_to_piece, smallest_step
+from ..profiles.curves import left_to_piece
+from ..scales import contact_speed, contact_unit
+from ..stepping.step_size import smallest_step
 from ..stepping.stepper import restart
 from ..vectors import clear, copy
 from .completed_step import look_through, note, set_clock
 from .indicators import (
     DUE,
+    EXTENT,
     can_happen,
     due_below,
     evaluate,
     happens,
     indicator,
     is_leaving,
-    length_scale,
     lift,
     unseen,
     what_forbids,
@@ -48,7 +50,7 @@ from .indicators import (
 )
 from .thresholds import cross_what_is_due
 
-#: An importer without a root finder may come no deeper than this part of the mechanism's size, or so many rad.
+#: An importer without a root finder may come no deeper than this part of the order of lengths, or angles.
 _DEEPEST_SHARE = 5e-3
 #: So many things in turn at one instant, beside one for each guard, are no motion any more.
 _MOST_HAPPENINGS = 100
@@ -146,14 +148,18 @@ def _is_due(block: Array, at: Pose, number: int) -> bool:
     if guard != codes.GUARD_GAP or Contacts(block).mode[subject] == codes.CLOSED or is_free(block, subject):
         return False
     distance, rate = gap(block, at, subject)
-    return distance <= TOUCHES_WITHIN and rate < -RESTS_BELOW and not is_leaving(block, number)
+    unit = contact_unit(block, subject)
+    approaches = rate < -RESTS_BELOW * contact_speed(block, subject)
+    return distance <= TOUCHES_WITHIN * unit and approaches and not is_leaving(block, number)
 
 
 @jit
 def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
     """A gap is zero, or the rate of a contact that was leaving; return a status."""
     keep_apart()
-    if is_leaving(block, number) and gap(block, at, contact)[0] > TOUCHES_WITHIN:
+    unit = contact_unit(block, contact)
+    rests_below = RESTS_BELOW * contact_speed(block, contact)
+    if is_leaving(block, number) and gap(block, at, contact)[0] > TOUCHES_WITHIN * unit:
         Exchange(block).leaves[contact] = 0  # from the top of its hop on, its gap is looked at
         Exchange(block).lift[number] = 0.0
         return status.OK
@@ -161,7 +167,7 @@ def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
     if is_free(block, contact):
         look_no_deeper(block, 2.0 * unseen(block, contact))  # as far as an importer without a root finder has come
         rate = _rate_of_nearest(block, contact)
-        if rate < RESTS_BELOW:
+        if rate < rests_below:
             bind(block, place_bodies(block, Course(block).y_end), contact)
         look_no_deeper(block, 0.0)
         if math.isnan(rate):
@@ -171,14 +177,14 @@ def _touch(block: Array, at: Pose, number: int, contact: int) -> int:
             lift(block, evaluate(block), number, 2.0 * DUE)
             return status.OK
     distance = gap(block, place_bodies(block, Course(block).y_end), contact)[0]
-    if distance < -_DEEPEST_SHARE * length_scale(block, number):
+    if distance < -_DEEPEST_SHARE * EXTENT * unit:
         blame(block, contact, distance)
         return status.PASSED_OVER
     _bring_together(block, contact)
     at = place_bodies(block, Course(block).y_end)
     rate = gap(block, at, contact)[1]
     Exchange(block).leaves[contact] = 1
-    if rate > RESTS_BELOW:  # it has been passed over, and comes off again
+    if rate > rests_below:  # it has been passed over, and comes off again
         Exchange(block).lift[number] = 0.0
         return status.OK
     outcome = transit(block, codes.GUARD_GAP, contact)
@@ -205,7 +211,7 @@ def _bring_together(block: Array, contact: int) -> None:
     """Bring a gap that is not zero to zero, and all rows that have drifted; rates stay, but for those of the rows."""
     keep_small()
     now = Course(block)
-    if not abs(gap(block, place_bodies(block, now.y_end), contact)[0]) > GAP_NOISE:
+    if not abs(gap(block, place_bodies(block, now.y_end), contact)[0]) > GAP_NOISE * contact_unit(block, contact):
         return
     mode = Contacts(block).mode
     mode[contact] = codes.CLOSED
@@ -228,7 +234,7 @@ def _settle(block: Array) -> None:
     for c in range(table.leaves.shape[0]):
         table.leaves[c] = 0
         if Contacts(block).mode[c] == codes.OPEN and not is_free(block, c):
-            table.leaves[c] = 1 if gap(block, at, c)[0] <= TOUCHES_WITHIN else 0
+            table.leaves[c] = 1 if gap(block, at, c)[0] <= TOUCHES_WITHIN * contact_unit(block, c) else 0
     at = evaluate(block)
     note(block, at)
     for g in range(Sizes(block).guards):
@@ -245,6 +251,6 @@ def _find_next_piece(block: Array) -> None:
     for number in Joints(block).curve:
         if number != codes.NONE:
             left = left_to_piece(block, number, time)
-            if left > smallest_step(time):
+            if left > smallest_step(block, time):
                 nearest = min(nearest, left)
     Exchange(block).next_piece[0] = nearest

@@ -4,7 +4,7 @@
 - A contact that has just come off, by an impact or because it would pull, is *leaving*: its gap is zero within
   rounding, and would fire again at once. Until its gap is clearly positive, its indicator is
 
-      gap rate + STICK_SPEED + gap / RETURN_TIME,
+      gap rate + STICK_SPEED + gap / RETURN_TIME, in the scales of the mechanism,
 
   which is positive as long as it leaves, and comes to zero on the way back, just beyond the top of the hop, before the
   gap does. That event changes nothing but what is looked at: from then on it is the gap. A hop that is no higher
@@ -32,31 +32,34 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Exchange, LinearSystem, Pose
-from ...tables.parts import Bodies, Contacts, Outlines, Ports
+from ...tables.motion import Course, Exchange, LinearSystem, Pose, Rubs
+from ...tables.parts import Contacts, Outlines, Ports
 from ...tables.sizes import Sizes
-from ...tolerances import MARGIN, SLIPS_ABOVE, STICK_SPEED
+from ...tolerances import PASSES_BY, SLIPS_ABOVE, STICK_SPEED
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import rubs, slips, sticks
 from ..constraints.rows import row_count
 from ..contacts.binding import is_free
-from ..contacts.complementarity import push_tolerance
 from ..contacts.guards import can_open, gap, guard_of, guard_value, is_watched
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import feed, set_time
+from ..dynamics.rounding import force_rounding, note_level
 from ..dynamics.sliding import hold
 from ..elementary import sine_cosine
 from ..outlines.nearest import look_no_deeper
+from ..scales import contact_speed, contact_unit, force_scale, friction_unit, guard_unit, length_scale, slip_scale
 from ..stepping.singular import SINGULAR_BELOW, independence
 from ..stepping.step_size import MOST_TURN
 from .thresholds import write_threshold_indicators
 
 #: By how much a leaving contact's indicator rises with its gap: so fast must it come back from a gap for that to be
-#: seen before the gap is zero [s].
+#: seen before the gap is zero, in the time of the mechanism.
 RETURN_TIME = 0.1
 #: Poses between which a step runs: its start, two control points, and now.
 _SEEN, _LEAVES, _ARRIVES, _NOW = range(4)
+#: The order of lengths in a mechanism whose scale is 1 [m], and of angles [rad].
+EXTENT = 0.14
 #: Outlines may graze each other unseen by half of this part of the smaller one's radius.
 _GRAZE = 1e-3
 #: An indicator below this is due, and behind events none is below twice as much.
@@ -139,23 +142,27 @@ def indicator(block: Array, at: Pose, number: int) -> float:
     if not can_happen(block, number):
         return 1.0
     guard, subject = happens(block, number)
-    system = LinearSystem(block)
     if guard == codes.GUARD_PUSH:
-        tolerance = push_tolerance(block, row_count(block))
-        force: float = system.multiplier[Contacts(block).row[subject]] + LETS_GO * tolerance
-        return force / _force_scale(block)
+        row = Contacts(block).row[subject]
+        note_level(block, row_count(block))
+        force: float = LinearSystem(block).multiplier[row] + LETS_GO * force_rounding(block, row)
+        return force / order(block, guard, subject)
     if guard == codes.GUARD_SLIP:
-        tolerance = push_tolerance(block, row_count(block))
-        return (hold(block, subject) + LETS_GO * tolerance) / _force_scale(block)
+        note_level(block, row_count(block))
+        return (hold(block, subject) + LETS_GO * force_rounding(block, Rubs(block).row[subject])) / order(
+            block, guard, subject
+        )
     if is_leaving(block, number):
         distance, rate = gap(block, at, subject)
-        return (rate + STICK_SPEED + distance / RETURN_TIME) / length_scale(block, number)
+        unit = contact_unit(block, subject)
+        leaves = (rate / contact_speed(block, subject) + STICK_SPEED) * unit + distance / RETURN_TIME
+        return leaves / order(block, guard, subject)
     if guard == codes.GUARD_GAP and is_free(block, subject):
-        return _before_meeting(block, at, number, subject) / length_scale(block, number)
+        return _before_meeting(block, at, number, subject) / order(block, guard, subject)
     value = guard_value(block, at, number)[0]
     if guard == codes.GUARD_STICK:
-        value += 0.5 * SLIPS_ABOVE  # at zero it is at rest for every event
-    return value / length_scale(block, number)
+        value = (value / slip_scale(block, subject) + 0.5 * SLIPS_ABOVE) * friction_unit(block, subject)  # 0: at rest
+    return value / order(block, guard, subject)
 
 
 @jit
@@ -296,18 +303,19 @@ def measure(block: Array, at: Pose) -> None:
 def due_below(block: Array, number: int) -> float:
     """Below which value an indicator is due: of forces, where they lack more than half of what they may."""
     keep_small()
-    guard = happens(block, number)[0]
-    if guard == codes.GUARD_PUSH or guard == codes.GUARD_SLIP:
-        half = 0.25 * LETS_GO * push_tolerance(block, row_count(block)) / _force_scale(block)
-        return max(DUE, half)
-    return DUE
+    guard, subject = happens(block, number)
+    if guard != codes.GUARD_PUSH and guard != codes.GUARD_SLIP:
+        return DUE
+    note_level(block, row_count(block))
+    row = Contacts(block).row[subject] if guard == codes.GUARD_PUSH else Rubs(block).row[subject]
+    return max(DUE, 0.25 * LETS_GO * force_rounding(block, row) / order(block, guard, subject))
 
 
 @jit
 def lift(block: Array, at: Pose, number: int, least: float) -> None:
     """Lift an indicator that is less than `least` to that, or take back its lift.
 
-    What has come to the end of a feature in a hollow corner has nowhere to go on; it counts again a `MARGIN` farther.
+    What has come to the end of a feature in a hollow corner has nowhere to go on; it counts again `PASSES_BY` farther.
     """
     keep_small()
     value = indicator(block, at, number)
@@ -315,34 +323,17 @@ def lift(block: Array, at: Pose, number: int, least: float) -> None:
     table.lift[number] = 0.0
     if value < least:
         table.lift[number] = least - value
-        if guard_of(block, number)[0] == codes.GUARD_HANDOVER:
-            table.lift[number] += MARGIN / length_scale(block, number)
+        guard, subject = guard_of(block, number)
+        if guard == codes.GUARD_HANDOVER:
+            table.lift[number] += PASSES_BY * length_scale(block) / order(block, guard, subject)
 
 
 @jit
-def length_scale(block: Array, number: int) -> float:
-    """The size of the mechanism [m], of its speeds [m/s]; 1 for angles, and where all bodies begin at the origin."""
+def order(block: Array, guard: int, subject: int) -> float:
+    """Order of what an indicator is of: a length or angle of the mechanism, or a force or torque."""
     keep_small()
-    guard, subject = guard_of(block, number)
-    of_contact = guard == codes.GUARD_GAP or guard == codes.GUARD_HANDOVER
-    kind = Contacts(block).kind[subject] if of_contact else codes.POINT_LINE
-    if guard == codes.GUARD_FUNCTION or guard == codes.GUARD_CLICK or guard == codes.GUARD_STICK:
-        return 1.0
-    if kind == codes.ANGLE_STOP or kind == codes.ANGLE_LOCK:
-        return 1.0
-    size = 0.0
-    start = Bodies(block).start
-    for i in range(start.shape[0]):
-        size = max(size, abs(start[i, 0]), abs(start[i, 1]))
-    return size if size > 0.0 else 1.0
-
-
-@jit
-def _force_scale(block: Array) -> float:
-    """The force that accelerates the heaviest body by 1 m/s^2 [N]."""
-    keep_small()
-    inverse = Bodies(block).inverse_mass
-    least = inverse[0]
-    for k in range(0, Sizes(block).coordinates, 3):
-        least = min(least, inverse[k])
-    return 1.0 / float(least)
+    if guard == codes.GUARD_PUSH:
+        return force_scale(block) * length_scale(block) / contact_unit(block, subject)
+    if guard == codes.GUARD_SLIP:
+        return force_scale(block) * length_scale(block) / friction_unit(block, subject)
+    return EXTENT * guard_unit(block, guard, subject)

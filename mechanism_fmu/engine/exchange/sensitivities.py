@@ -23,6 +23,7 @@ from ..compiler.subset import entry, jit, keep_apart, keep_small
 from ..constraints.friction_rows import rubs
 from ..dynamics.linear_solve import KEEP
 from ..outputs import read_outputs
+from ..scales import unknown_scale
 from ..vectors import copy
 from .indicators import evaluate
 
@@ -30,7 +31,7 @@ from .indicators import evaluate
 _SHRINKS = 4.0
 #: Estimates agree where they are so near to each other, in parts of their size.
 _AGREE = 1e-13
-#: The first step: inputs move by this part of their size, at least by this; states by so much [SI].
+#: The first step: inputs move by this part of their size, at least by this; states by so much, in their scales.
 _PART, _LEAST_INPUT, _OF_STATES = 0.5, 1e-2, 1e-2
 
 
@@ -79,7 +80,7 @@ def _first_step(block: Array) -> tuple[float, bool]:
             step = min(step, (_PART * abs(table.inputs[k]) + _LEAST_INPUT) / abs(table.input_seed[k]))
     for k in range(table.states.shape[0]):
         if table.state_seed[k] != 0.0:
-            step = min(step, _OF_STATES / abs(table.state_seed[k]))
+            step = min(step, _OF_STATES * unknown_scale(block, k) / abs(table.state_seed[k]))
             moved = True
     return step if step < math.inf else 1.0, moved
 

@@ -27,6 +27,7 @@ from ...tables.motion import Pose, Stages
 from ...tables.parts import Contacts, Outlines
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
+from ..scales import length_scale
 from ..vectors import turned
 
 #: Looks are no closer than this, in parts of a step; but where the step is long, than what is covered of the smaller
@@ -161,7 +162,7 @@ def _slope(block: Array, unknown: int) -> float:
 
 @jit
 def come_nearer(block: Array, most: float) -> None:
-    """Coordinates of bodies have been changed by `most` at most: what was known to be apart is so by less."""
+    """Coordinates of bodies have been changed by `most` in scale at most: what was known apart is so by less."""
     keep_small()
     table = Contacts(block)
     data = Outlines(block).data
@@ -174,6 +175,6 @@ def come_nearer(block: Array, most: float) -> None:
                 x, y = data[outline, codes.OUTLINE_X], data[outline, codes.OUTLINE_Y]
                 in_a_row = in_a_row or data[outline, codes.OUTLINE_DX] != 0.0 or data[outline, codes.OUTLINE_DY] != 0.0
                 reach += math.sqrt(x * x + y * y) + data[outline, codes.OUTLINE_RADIUS]
-            table.apart[c] = max(table.apart[c] - most * (4.0 + reach), 0.0)
+            table.apart[c] = max(table.apart[c] - most * (4.0 * length_scale(block) + reach), 0.0)
             if in_a_row:  # which has no end
                 table.apart[c] = 0.0

@@ -15,6 +15,7 @@ from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2
+from ..scales import length_scale
 from .held import touches_there
 
 
@@ -57,7 +58,7 @@ def crossing(block: Array, contact: int, copy: int, comes_next: bool, c: float, 
             if comes_next and depth > deepest and touches_there(block, contact, copy, f, g):
                 continue
             deepest = max(deepest, depth)
-    if comes_next or deepest > TOUCHES_WITHIN:
+    if comes_next or deepest > TOUCHES_WITHIN * length_scale(block):
         return deepest
     return 0.0
 

@@ -11,18 +11,20 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Features, Outlines
-from ...tolerances import MARGIN, TOUCHES_WITHIN
+from ...tolerances import PASSES_BY, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2, sine_cosine
+from ..scales import length_scale
 
 #: The gap where there is nothing to touch [m].
 FAR = 1e30
-#: Two corners touch when they are this near [m]: those of two blocks on one floor would else pass through each other.
-CORNERS_TOUCH = 1e-9
-#: So far beyond its end something may still be over a feature [m]; less than where a contact hands over, so that what
+#: All lengths here are in the scale of lengths. Two corners touch when they are this near: those of two blocks on one
+#: floor would else pass through each other.
+CORNERS_TOUCH = 1e-10
+#: So far beyond its end something may still be over a feature; less than where a contact hands over, so that what
 #: has come to its end is not found there again.
-BEYOND = 0.5 * MARGIN
-#: A corner that is nearer than this to a corner is at that corner [m].
+BEYOND = 0.5 * PASSES_BY
+#: A corner that is nearer than this to a corner is at that corner.
 AT_A_CORNER = 10.0 * TOUCHES_WITHIN
 #: What a corner touches may be turned against the elements beside it by this [rad], as what lies flat there is.
 _TILT = 1e-6
@@ -255,7 +257,7 @@ def is_at_end(block: Array, feature: int, x: float, y: float) -> bool:
     if Features(block).kind[feature] == codes.VERTEX:
         return False
     before, behind = inside_range(block, feature, x, y)
-    return min(before, behind) < AT_A_CORNER
+    return min(before, behind) < AT_A_CORNER * length_scale(block)
 
 
 @jit
@@ -295,7 +297,7 @@ def _is_beyond(block: Array, corner: int, dx: float, dy: float) -> bool:
     before = data[codes.FEATURE_DX] * dx + data[codes.FEATURE_DY] * dy
     behind = -(data[codes.FEATURE_LEAVES_X] * dx + data[codes.FEATURE_LEAVES_Y] * dy)
     least = before + behind if data[codes.FEATURE_TURN] == codes.FREE_END else min(before, behind)
-    is_beyond: bool = least > BEYOND
+    is_beyond: bool = least > BEYOND * length_scale(block)
     return is_beyond
 
 
@@ -306,13 +308,14 @@ def is_over_arc(block: Array, feature: int, dx: float, dy: float) -> bool:
     data = Features(block).data[feature]
     along = data[codes.FEATURE_DX] * dx + data[codes.FEATURE_DY] * dy
     half = data[codes.FEATURE_HALF]
+    beyond = BEYOND * length_scale(block)
     # of arcs that are half circles or more, or not so much, a sign says it mostly
     if half >= _QUARTER_TURN and along > 0.0:
         return True
-    if half <= _QUARTER_TURN and -along * abs(data[codes.FEATURE_RADIUS]) > BEYOND * math.sqrt(dx * dx + dy * dy):
+    if half <= _QUARTER_TURN and -along * abs(data[codes.FEATURE_RADIUS]) > beyond * math.sqrt(dx * dx + dy * dy):
         return False
     before, behind = over_arc(block, feature, dx, dy)
-    return before >= -BEYOND and behind >= -BEYOND
+    return before >= -beyond and behind >= -beyond
 
 
 @jit
@@ -325,4 +328,5 @@ def is_over(block: Array, feature: int, x: float, y: float) -> bool:
         data = Features(block).data[feature]
         return is_over_arc(block, feature, x - data[codes.FEATURE_X], y - data[codes.FEATURE_Y])
     before, behind = inside_range(block, feature, x, y)
-    return before >= -BEYOND and behind >= -BEYOND
+    beyond = BEYOND * length_scale(block)
+    return before >= -beyond and behind >= -beyond

@@ -5,8 +5,9 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import MARGIN
+from ...tolerances import PASSES_BY
 from ..compiler.subset import jit, keep_apart, keep_small
+from ..scales import length_scale
 from .features import (
     AT_A_CORNER,
     beside,
@@ -138,7 +139,7 @@ def _is_at(block: Array, disc: int, held: int, px: float, py: float) -> bool:
         return False
     dx: float = features.data[held, codes.FEATURE_X] - px
     dy: float = features.data[held, codes.FEATURE_Y] - py
-    return max(abs(dx), abs(dy)) <= AT_A_CORNER
+    return max(abs(dx), abs(dy)) <= AT_A_CORNER * length_scale(block)
 
 
 @jit
@@ -193,7 +194,7 @@ def _is_one_circle(block: Array, one: int, other: int) -> bool:
     dx: float = a[codes.FEATURE_X] - b[codes.FEATURE_X]
     dy: float = a[codes.FEATURE_Y] - b[codes.FEATURE_Y]
     wider: float = a[codes.FEATURE_RADIUS] - b[codes.FEATURE_RADIUS]
-    return max(abs(dx), abs(dy), abs(wider)) <= MARGIN
+    return max(abs(dx), abs(dy), abs(wider)) <= PASSES_BY * length_scale(block)
 
 
 @jit

@@ -16,6 +16,7 @@ from ...tables.parts import Contacts, Features, Outlines
 from ...tolerances import GAP_NOISE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..elementary import atan2
+from ..scales import length_scale
 from .crossing import crossing
 from .features import (
     AT_A_CORNER,
@@ -207,8 +208,8 @@ def _of_discs(
             continue
         found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius, best)
         # where two arcs and the side between them lie flat, all are as near but for rounding: what can touch counts
-        if smooth and found != codes.NONE and gap < best - GAP_NOISE:
-            best = max(gap, TOUCHES_WITHIN)
+        if smooth and found != codes.NONE and gap < best - GAP_NOISE * length_scale(block):
+            best = max(gap, TOUCHES_WITHIN * length_scale(block))
             outlines.found[0] = codes.NONE
             outlines.found[1] = codes.NONE
         if not smooth and gap < best:
@@ -246,6 +247,7 @@ def _of_disc(
     keep_apart()
     outlines = Outlines(block)
     features = Features(block)
+    length = length_scale(block)
     deepest = outlines.depth[0]
     # a hollow corner is where the element behind it begins, which is not what the one before touches
     is_end = features.kind[disc] == codes.VERTEX and is_hollow_corner(block, disc)
@@ -260,17 +262,17 @@ def _of_disc(
             continue  # it does not fit in
         distance, nx, ny = apart(block, g, px, py, radius)
         if mode <= FREE and features.kind[g] == codes.VERTEX and features.kind[disc] == codes.VERTEX:
-            distance -= CORNERS_TOUCH
-            if not (distance > -0.5 * CORNERS_TOUCH and corners_face(block, disc, g, c, s, px, py)):
+            distance -= CORNERS_TOUCH * length
+            if not (distance > -0.5 * CORNERS_TOUCH * length and corners_face(block, disc, g, c, s, px, py)):
                 continue  # a side of one touches the other
         if distance < -deepest or distance >= farthest or (distance >= gap and abs(distance) >= least):
             continue
         if not is_over(block, g, px, py):
             continue
-        at_corner = sticks_out and abs(distance) < AT_A_CORNER and is_at_end(block, g, px, py)
+        at_corner = sticks_out and abs(distance) < AT_A_CORNER * length and is_at_end(block, g, px, py)
         if at_corner and not faces_corner(block, disc, c * nx + s * ny, c * ny - s * nx):
-            if least > AT_A_CORNER:  # what it touches there is nearer, whatever rounding says
-                least = AT_A_CORNER
+            if least > AT_A_CORNER * length:  # what it touches there is nearer, whatever rounding says
+                least = AT_A_CORNER * length
                 closest = g
             continue
         if not is_end:
@@ -284,7 +286,7 @@ def _of_disc(
         faces = True
         if radius > 0.0:  # the place on the disc, seen from its body
             faces = is_over_arc(block, disc, -c * nx - s * ny, s * nx - c * ny)
-            if faces and distance < -TOUCHES_WITHIN:  # where it touches, rounding would say
+            if faces and distance < -TOUCHES_WITHIN * length:  # where it touches, rounding would say
                 faces = _is_inside(block, other, px - radius * nx, py - radius * ny)
         if abs(distance) < least:
             least = abs(distance)
@@ -298,8 +300,8 @@ def _of_disc(
         if faces and distance < 0.0 and g != closest and not is_one_with(block, other, g, closest):
             crossed = g
             depth = distance
-    if comes_apart and mode == NEXT and crossed == codes.NONE and gap > TOUCHES_WITHIN:
-        return codes.NONE, TOUCHES_WITHIN  # what slides along from there touches at two places
+    if comes_apart and mode == NEXT and crossed == codes.NONE and gap > TOUCHES_WITHIN * length:
+        return codes.NONE, TOUCHES_WITHIN * length  # what slides along from there touches at two places
     if crossed == codes.NONE:
         return front, gap
     if crossed != closest and is_one_with(block, other, crossed, closest):
@@ -329,7 +331,7 @@ def _is_inside(block: Array, outline: int, x: float, y: float) -> bool:
 @jit
 def look_no_deeper(block: Array, depth: float) -> None:
     """From here on, features behind which a disc is deeper than this do not count [m]; at least what touches does."""
-    Outlines(block).depth[0] = max(depth, TOUCHES_WITHIN)
+    Outlines(block).depth[0] = max(depth, TOUCHES_WITHIN * length_scale(block))
 
 
 @jit

@@ -6,7 +6,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.parts import Curves
+from ...tables.parts import Curves, Joints
 from ..compiler.subset import jit, keep_small
 from ..elementary import sine_cosine
 
@@ -93,3 +93,64 @@ def quarter_wave(block: Array, piece: int) -> float:
         if table.term_data[t, codes.AMPLITUDE] != 0.0 and frequency > 0.0:
             shortest = min(shortest, 0.5 * math.pi / frequency)
     return shortest
+
+
+# Motions of drivers: pieces and waves over time, which a step must not pass over.
+
+#: A step that comes so near to the end of a piece, or of an input's slope, goes there.
+NEARLY = 0.99
+
+
+@jit
+def within_motions(block: Array, start: float, step: float) -> float:
+    """The step, or what is left of it to the next piece of a driver's motion, or to a quarter of its wave [s]."""
+    keep_small()
+    table = Joints(block)
+    for k in range(table.kind.shape[0]):
+        if table.curve[k] != codes.NONE:
+            step = _within_motion(block, table.curve[k], start, step)
+    return step
+
+
+@jit
+def _within_motion(block: Array, number: int, start: float, step: float) -> float:
+    """The step, or what is left of it to the next piece of one curve, or to a quarter of its wave [s]."""
+    keep_small()
+    left = left_to_piece(block, number, start)
+    if NEARLY * left < step:
+        step = left
+    table = Curves(block)
+    here = table.piece[number]
+    after = here + table.pieces[number]
+    turns = _periods_before(block, number, start)
+    while here + 1 < after and table.piece_start[here + 1] + turns <= start:
+        here += 1
+    return min(step, quarter_wave(block, here))
+
+
+@jit
+def left_to_piece(block: Array, number: int, start: float) -> float:
+    """How far the next piece of a curve over time is from `start` [s]; infinite behind the last one."""
+    keep_small()
+    table = Curves(block)
+    first = table.piece[number]
+    turns = _periods_before(block, number, start)
+    nearest = math.inf
+    for p in range(first, first + table.pieces[number]):
+        left = table.piece_start[p] + turns - start
+        if left <= 0.0 and table.periodic[number] == 1:
+            left += table.range[number, 1]
+        if left > 0.0:
+            nearest = min(nearest, left)
+    return nearest
+
+
+@jit
+def _periods_before(block: Array, number: int, start: float) -> float:
+    """Whole periods of a curve before `start` [s]; none where it has no period."""
+    keep_small()
+    table = Curves(block)
+    turns = 0.0
+    if table.periodic[number] == 1:
+        turns = math.floor((start - table.range[number, 0]) / table.range[number, 1]) * table.range[number, 1]
+    return turns

@@ -10,13 +10,14 @@ from ...tables.motion import Pose
 from ...tables.parts import Contacts
 from ..compiler.subset import jit, keep_small
 from ..elementary import atan2
+from ..scales import length_scale
 from .curves import curve, sample
 from .touch import look
 
 #: Points of profile i that are looked at.
 _SAMPLES = 720
-#: Profiles overlap when one reaches into the other by more than this [m].
-_OVERLAP = 1e-9
+#: Profiles overlap when one reaches into the other by more than this, in scale.
+_OVERLAP = 1e-10
 
 
 @jit
@@ -45,7 +46,7 @@ def overlap(block: Array, at: Pose, contact: int) -> float:
         at.alpha[alpha] = sample(block, table.curve_i[contact], k, _SAMPLES)
         deepest = max(deepest, _depth(block, at, contact))
     at.alpha[alpha] = kept
-    return deepest if deepest > _OVERLAP else 0.0
+    return deepest if deepest > _OVERLAP * length_scale(block) else 0.0
 
 
 @jit

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Loads, Rows, Stages
@@ -20,6 +18,7 @@ from ..contacts.rubbing import part_all
 from ..contacts.transition import switch_contacts
 from ..dynamics.linear_solve import solve, write_matrix
 from ..profiles.nearest import find_contact_points, settle_contact_points
+from ..scales import contact_unit, largest_off, length_scale
 from ..vectors import copy
 
 # Assembly: the position nearest to the start guess at which no row is off, by Newton's method.
@@ -45,7 +44,7 @@ def assemble(block: Array) -> int:
     at = place_bodies(block, now.y_end)
     find_contact_points(block, at, now.y_end)
     count = active_rows(block, at)
-    worst = worst_of(Rows(block).residual, count)
+    worst = largest_off(block, Rows(block).residual, count)
     for _ in range(_NEWTON_STEPS):
         if worst == 0.0:
             return status.OK
@@ -59,7 +58,7 @@ def assemble(block: Array) -> int:
             at = place_bodies(block, s.y_new)
             settle_contact_points(block, at, s.y_new)
             active_rows(block, at)
-            after = worst_of(Rows(block).residual, count)
+            after = largest_off(block, Rows(block).residual, count)
             if after < worst:
                 improved = True
                 break
@@ -85,19 +84,6 @@ def newton_direction(block: Array, count: int, left: Array) -> None:
     solve(block, count, n)
 
 
-@jit
-def worst_of(values: Array, count: int) -> float:
-    """Largest magnitude of the first `count` values; infinite when one is not a number."""
-    keep_small()
-    most = 0.0
-    for k in range(count):
-        if not abs(values[k]) <= most:
-            most = abs(values[k])
-        if not most < math.inf:
-            return math.inf
-    return most
-
-
 # The start guess: where bodies and patterns begin, before assembly.
 
 #: Copies of a pattern that are passed in search of the one where the point is.
@@ -116,6 +102,7 @@ def start_guess(block: Array, offset: int) -> None:
     for i in range(body.start.shape[0]):
         for k in range(3):
             now.y_end[3 * i + k] = body.start[i, k]
+            weight[3 * i + k] = 1.0 if k == 2 else length_scale(block)
     part_all(block)
     held = Options(block).held
     for k in range(held.shape[0]):
@@ -145,14 +132,14 @@ def start_guess(block: Array, offset: int) -> None:
 
 @jit
 def start_rates(block: Array) -> None:
-    """The bodies' start rates, with no coordinate held."""
+    """The bodies' start rates, with no coordinate held: others are as far from them as their energy says."""
     keep_apart()
     n = Sizes(block).coordinates
     rate = Bodies(block).start_rate
     for i in range(rate.shape[0]):
         for k in range(3):
             Course(block).y_end[n + 3 * i + k] = rate[i, k]
-            Loads(block).weight[3 * i + k] = 1.0
+            Loads(block).weight[3 * i + k] = Bodies(block).inverse_root_mass[3 * i + k]
 
 
 @jit
@@ -191,5 +178,5 @@ def is_inside(block: Array) -> bool:
         if pattern == codes.NONE or table.mode[c] == codes.CLOSED or table.value[c, codes.ENABLED] < 0.5:
             continue
         if table.function[c] == codes.NONE and Patterns(block).enabled[pattern] > 0.5:
-            inside = inside or gap(block, at, c)[0] < -TOUCHES_WITHIN
+            inside = inside or gap(block, at, c)[0] < -TOUCHES_WITHIN * contact_unit(block, c)
     return inside

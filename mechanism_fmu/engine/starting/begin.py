@@ -22,11 +22,14 @@ from ..contacts.impact import clear_impact, clear_records
 from ..contacts.participation import find_participants
 from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations
+from ..dynamics.scaling import note_rate, note_sizes
 from ..dynamics.thresholds import clear_sides
+from ..profiles.curves import within_motions
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
+from ..scales import contact_speed, contact_unit, largest_off, present_rate
 from ..vectors import clear
-from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, start_rates, worst_of
+from .assembly import assemble, find_copies, is_inside, newton_direction, start_guess, start_rates
 
 # The start of the motion: the assembled position is checked, and all that counts begins at zero.
 
@@ -42,6 +45,8 @@ def start(block: Array, time: float) -> int:
     """
     keep_apart()
     _begin_at_zero(block, time)
+    note_sizes(block)
+    note_rate(block, 1.0 / within_motions(block, time, math.inf))
     at = place_bodies(block, Course(block).y_end)
     if _profiles_overlap(block, at):
         return status.OVERLAP
@@ -123,12 +128,13 @@ def _contacts_begin(block: Array, at: Pose) -> bool:
         exists = table.value[c, codes.ENABLED] > 0.5 and table.function[c] == codes.NONE
         if table.mode[c] == codes.OPEN and exists:
             distance, rate = gap(block, at, c)
-            if not distance >= -TOUCHES_WITHIN:
+            touches_within = TOUCHES_WITHIN * contact_unit(block, c)
+            if not distance >= -touches_within:
                 _blame(block, c, distance)
                 return False
-            if distance <= TOUCHES_WITHIN and abs(rate) < STICK_SPEED:
+            if distance <= touches_within and abs(rate) < STICK_SPEED * contact_speed(block, c):
                 table.mode[c] = codes.CLOSED
-            elif distance <= TOUCHES_WITHIN:
+            elif distance <= touches_within:
                 table.touching[c] = 1
     return True
 
@@ -149,15 +155,16 @@ def _close_rates(block: Array, at: Pose) -> bool:
     near them that do: the others of bodies that were given none, if that is enough.
     """
     keep_small()
-    worst = worst_of(Rows(block).residual_rate, active_rows(block, at))
+    rate = present_rate(block)
+    worst = largest_off(block, Rows(block).residual_rate, active_rows(block, at))
     held = Options(block).held.shape[0] > 0
-    if worst <= _RATES_CLOSED or (worst <= RATES_WITHIN and not held):
+    if worst <= _RATES_CLOSED * rate or (worst <= RATES_WITHIN * rate and not held):
         return True
     if not worst < math.inf:
         return False
     if not held:
         _hold_given(block)
-    agree = _approach(block) <= RATES_WITHIN
+    agree = _approach(block) <= RATES_WITHIN * rate
     if agree and (held or _is_driven(block)):
         return True
     if not agree:
@@ -178,7 +185,7 @@ def _approach(block: Array) -> float:
         for k in range(n):
             y[n + k] += Loads(block).weight[k] * LinearSystem(block).solution[k]
         active_rows(block, place_bodies(block, y))
-    return worst_of(Rows(block).residual_rate, count)
+    return largest_off(block, Rows(block).residual_rate, count)
 
 
 @jit
@@ -221,6 +228,7 @@ def begin(block: Array, time: float) -> int:
     seen = examine_profiles(block)
     if seen != status.OK:
         return seen
+    _note_first_sizes(block)
     for k in range(_MOST_ASSEMBLIES + 1):
         start_guess(block, _neighbour(k))
         outcome = assemble(block)
@@ -240,8 +248,17 @@ def assemble_at(block: Array, time: float) -> int:
     """Close the position rows from the start guess at `time` [s], whatever the rates; return a status (see `begin`)."""
     keep_small()
     set_time(block, time)
+    _note_first_sizes(block)
     start_guess(block, 0)
     return assemble(block)
+
+
+@jit
+def _note_first_sizes(block: Array) -> None:
+    """The scales of length and mass, as of the start guess."""
+    keep_small()
+    start_guess(block, 0)
+    note_sizes(block)
 
 
 @jit

@@ -12,7 +12,8 @@ from ..constraints.rows import row_count
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative
 from ..interpolation import QUINTIC, has_gains, write_motion
 from ..profiles.nearest import settle_contact_points
-from ..vectors import copy, largest
+from ..scales import largest_off, rate_scale
+from ..vectors import copy
 from .singular import independence
 
 #: Rows that have drifted by less than so many times `MOST_DRIFT` are closed by one correction, and no further look.
@@ -30,11 +31,12 @@ def closes_step(block: Array) -> bool:
     keep_small()
     now = Course(block)
     drift = Stages(block).drift
-    near = drift[0] < _NEAR * MOST_DRIFT and drift[1] < _NEAR * MOST_RATE_DRIFT
+    near = drift[0] < _NEAR * MOST_DRIFT and drift[1] < _NEAR * MOST_RATE_DRIFT * rate_scale(block)
     if not near or has_gains(block) or now.counters[codes.IMPLICIT] == 1:
         return False
     count = row_count(block)
-    if largest(Rows(block).residual, count) != drift[0] or largest(Rows(block).residual_rate, count) != drift[1]:
+    stands = largest_off(block, Rows(block).residual, count) == drift[0]
+    if not (stands and largest_off(block, Rows(block).residual_rate, count) == drift[1]):
         derivative(block, now.y_end, now.dy_end)  # something else has been evaluated since
     if not independence(block) > _INDEPENDENT:
         return False

@@ -18,6 +18,7 @@ from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..dynamics.forces import set_time
 from ..dynamics.thresholds import beyond, is_watched
+from ..scales import rate_scale
 from .looks import BISECTIONS, place_at
 from .runge_kutta import try_step
 
@@ -173,7 +174,10 @@ def refine_crossing(block: Array, n: int, step_size: float) -> float:
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, size)
         move = -beyond(block, place_bodies(block, s.y_new), n) / slope
-        if abs(move) <= ROOT_TOLERANCE or not abs(size + move - step_size) <= _MISPLACED * step_size:
+        if (
+            abs(move) * rate_scale(block) <= ROOT_TOLERANCE
+            or not abs(size + move - step_size) <= _MISPLACED * step_size
+        ):
             return size
         size += move
     try_step(block, start, size)

@@ -5,7 +5,7 @@ Open at t0: what has fired at the end of one step does not fire again at the sta
 falls between two steps. Only this way round counts. Of several guards the earliest fires. Exceptions at t0:
 
 - a guard that is no gap and is not positive at t0 fires at t0: an event there has changed what it looks at; but the end
-  of a feature in a hollow corner, where nothing takes over, counts when it is passed by another MARGIN;
+  of a feature in a hollow corner, where nothing takes over, counts when it is passed by another PASSES_BY;
 - a gap that is not positive at t0, or whose contact touched there (`contacts.touching`): closing (w' < -RESTS_BELOW),
   it fires at t0; opening (w' > RESTS_BELOW), it counts once it has been positive (`armed`), and until then where it
   comes back to min(w(t0), 0), at the top of its hop where rounding hides that, or below by GAP_NOISE where there is
@@ -30,7 +30,7 @@ from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import GAP_NOISE, MARGIN, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
+from ...tolerances import GAP_NOISE, PASSES_BY, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
@@ -38,6 +38,7 @@ from ..contacts.binding import bind, is_free, is_outline, let_loose
 from ..contacts.guards import gap, guard_of, guard_value, is_watched, stands_for_search
 from ..contacts.handover import ends_in_hollow, left_to_go
 from ..contacts.inside import is_too_deep
+from ..scales import contact_speed, contact_unit, guard_unit, length_scale, rate_scale, slip_scale
 from .letting_go import first_to_let_go
 from .looks import BISECTIONS, bisect, falls_between, place_at, value_at
 from .meeting import cannot_meet, fastest_to_end, meets_before, meets_since
@@ -101,7 +102,8 @@ def comes_down_beside(block: Array, guard: int, subject: int, fraction: float) -
     if guard != codes.GUARD_GAP or not is_outline(block, subject) or is_free(block, subject):
         return False
     hops = table.mode[subject] == codes.OPEN and table.touching[subject] != 0
-    return bool(hops and left_to_go(block, place_at(block, fraction), subject)[0] < -MARGIN)
+    beyond = PASSES_BY * length_scale(block)
+    return bool(hops and left_to_go(block, place_at(block, fraction), subject)[0] < -beyond)
 
 
 @jit
@@ -115,14 +117,15 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         at = place_at(block, step_size / s.tried[1])
         _let_loose_what_is_off(block, at, contact)
         bind(block, at, contact)
+    rests_below = RESTS_BELOW * contact_speed(block, contact)
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
         at = place_bodies(block, s.y_new)
         distance, rate = gap(block, at, contact)
-        if not rate < -RESTS_BELOW:  # of what slides in front of something flat, rounding has either sign
+        if not rate < -rests_below:  # of what slides in front of something flat, rounding has either sign
             return step_size
         move = -distance / rate
-        if abs(move) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+        if abs(move) * rate_scale(block) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
             return step_size
         step_size += move
     try_step(block, start, step_size)
@@ -136,7 +139,7 @@ def _let_loose_what_is_off(block: Array, at: Pose, contact: int) -> None:
     table = Contacts(block)
     for c in range(table.mode.shape[0]):
         opens = table.group[c] == table.group[contact] and table.mode[c] == codes.OPEN and table.touching[c] != 0
-        if opens and gap(block, at, c)[0] > GAP_NOISE:
+        if opens and gap(block, at, c)[0] > GAP_NOISE * contact_unit(block, c):
             table.touching[c] = 0
             let_loose(block, c)
 
@@ -216,12 +219,13 @@ def _begin(block: Array, at: Pose, number: int) -> float:
     look_at.floor[number] = 0.0
     guard, subject = guard_of(block, number)
     if guard == codes.GUARD_STICK:
-        if value <= SLIPS_ABOVE:  # it begins to slip
+        slips_above = SLIPS_ABOVE * slip_scale(block, subject)
+        if value <= slips_above:  # it begins to slip
             look_at.armed[number] = 0
-            look_at.floor[number] = min(value, 0.0) - SLIPS_ABOVE
+            look_at.floor[number] = min(value, 0.0) - slips_above
         return _NOT_YET
     if guard == codes.GUARD_HANDOVER and value <= 0.0 and ends_in_hollow(block, at, subject):
-        look_at.floor[number] = value - MARGIN  # nothing takes over there: what is beyond has been looked at
+        look_at.floor[number] = value - PASSES_BY * length_scale(block)  # nothing takes over: what is beyond is known
         return _NOT_YET
     if guard == codes.GUARD_HANDOVER and value > 0.0:
         look_at.most[number] = fastest_to_end(block, at, subject)
@@ -234,13 +238,15 @@ def _begin(block: Array, at: Pose, number: int) -> float:
         return _INSIDE
     if value > 0.0 and Contacts(block).touching[subject] == 0:
         return _NOT_YET
-    if rate < -RESTS_BELOW:
+    unit = contact_unit(block, subject)
+    rests_below = RESTS_BELOW * contact_speed(block, subject)
+    if rate < -rests_below:
         return 0.0
-    look_at.floor[number] = -GAP_NOISE
-    opens = rate > RESTS_BELOW
+    look_at.floor[number] = -GAP_NOISE * unit
+    opens = rate > rests_below
     if opens:
         look_at.armed[number] = 0
-    if opens or (Contacts(block).touching[subject] == codes.LEFT_INSIDE and value > -TOUCHES_WITHIN):
+    if opens or (Contacts(block).touching[subject] == codes.LEFT_INSIDE and value > -TOUCHES_WITHIN * unit):
         look_at.floor[number] += min(value, 0.0)
     return 0.0 if value <= look_at.floor[number] else _NOT_YET
 
@@ -255,21 +261,26 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     next_rate = look_at.next[number, 1]
     floor = look_at.floor[number]
     fraction = 2.0
-    if look_at.armed[number] == 0 and guard_of(block, number)[0] == codes.GUARD_STICK:
+    guard, subject = guard_of(block, number)
+    if look_at.armed[number] == 0 and guard == codes.GUARD_STICK:
         if next_value <= floor:
             fraction = bisect(block, number, before, after, floor)
-        if next_value > SLIPS_ABOVE:  # not before: of what rests although it is taken to slip, rounding has either sign
+        # not before: of what rests although it is taken to slip, rounding has either sign
+        if next_value > SLIPS_ABOVE * slip_scale(block, subject):
             look_at.armed[number] = 1
             look_at.floor[number] = 0.0
         return fraction
+    noise = GAP_NOISE * guard_unit(block, guard, subject)
     if look_at.armed[number] == 0:
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
             level = 0.0
             if next_rate < 0.0:
                 before = _top(block, number, after)
                 if not value_at(block, number, before)[0] > 0.0:
-                    level = floor + GAP_NOISE  # where it began
-                if next_value > level or not before * Stages(block).tried[1] > smallest_step(Stages(block).tried[0]):
+                    level = floor + noise  # where it began
+                if next_value > level or not before * Stages(block).tried[1] > smallest_step(
+                    block, Stages(block).tried[0]
+                ):
                     before = 0.0
             else:
                 before = _after_opening(block, number, after)
@@ -277,7 +288,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
                 fraction = bisect(block, number, before, after, level)
             elif next_value <= floor:
                 fraction = bisect(block, number, before, after, floor)
-    elif next_value <= floor and guard_of(block, number)[0] == codes.GUARD_HANDOVER:
+    elif next_value <= floor and guard == codes.GUARD_HANDOVER:
         above = value_at(block, number, before)[0] - floor
         fraction = falls_between(block, number, before, above, after, next_value - floor, floor, _HANDS_OVER_WITHIN)
     elif next_value <= floor:
@@ -289,7 +300,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     if next_value > 0.0 and look_at.armed[number] == 0:
         look_at.armed[number] = 1
         look_at.floor[number] = 0.0
-    if next_value > GAP_NOISE:
+    if next_value > noise:
         look_at.floor[number] = 0.0
     look_at.rate[number] = next_rate
     return fraction

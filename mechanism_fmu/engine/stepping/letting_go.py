@@ -19,11 +19,13 @@ from ..constraints.friction_rows import friction_row, rubs, sticks
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
+from ..contacts.complementarity import hold_ratio, push_ratio
 from ..contacts.guards import can_open
 from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
+from ..dynamics.rounding import note_level
 from ..interpolation import interpolate
+from ..scales import rate_scale
 from ..vectors import copy
 from .looks import falling
 from .runge_kutta import try_step
@@ -76,9 +78,10 @@ def _spare(block: Array, guard: int, subject: int, fraction: float) -> float:
     set_time(block, s.tried[0] + fraction * s.tried[1])
     close_rows(block, s.y_at, 0.0, 0.0)
     derivative(block, s.y_at, s.dy_at)
+    note_level(block, row_count(block))
     if guard == codes.GUARD_PUSH:
-        return push_ratio(block, subject, push_tolerance(block, row_count(block)))
-    return hold_ratio(block, subject, push_tolerance(block, row_count(block)))
+        return push_ratio(block, subject)
+    return hold_ratio(block, subject)
 
 
 # a force goes on smoothly: no bisection among the false positions
@@ -213,7 +216,7 @@ def refine_slip(block: Array, rub: int, step_size: float) -> float:
         if rate == 0.0:
             return step_size
         move = -row.residual_rate[spare] / rate
-        if not abs(move) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+        if not abs(move) * rate_scale(block) > ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
             return step_size
         step_size += move
     try_step(block, start, step_size)
@@ -244,7 +247,7 @@ def refine_hold(block: Array, rub: int, step_size: float) -> float:
         move = value * (size - before) / (held - value)
         if not abs(size + move - step_size) <= _MISPLACED * step_size:
             break
-        if abs(move) <= ROOT_TOLERANCE:
+        if abs(move) * rate_scale(block) <= ROOT_TOLERANCE:
             return size
         before = size
         held = value

@@ -8,7 +8,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import GAP_NOISE, MARGIN
+from ...tolerances import GAP_NOISE, PASSES_BY
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.outline_row import place_feature
@@ -17,6 +17,7 @@ from ..contacts.handover import left_to_go
 from ..outlines.advance import against, fastest, finest, turns
 from ..outlines.features import CORNERS_TOUCH, radius_of
 from ..outlines.nearest import look_across, look_no_deeper
+from ..scales import length_scale
 from .looks import falls_between, place_at, value_at
 from .runge_kutta import try_step
 
@@ -25,8 +26,8 @@ _NEWTON_STEPS = 12
 #: where corners touch.
 _CORNERS_LOOKS = 64
 _CORNERS_PART = 0.2
-#: So near to it a place of contact is at the end of a feature [m]: what follows there goes on smoothly.
-_AT_THE_END = 0.1 * MARGIN
+#: So near to it a place of contact is at the end of a feature, in scale: what follows there goes on smoothly.
+_AT_THE_END = 0.1 * PASSES_BY
 #: The part of the way to the end of a feature from which on the slope there is measured.
 _CLOSE = 0.999
 
@@ -60,13 +61,14 @@ def meets_before(block: Array, number: int, after: float) -> float:
     apart = Contacts(block).apart
     most = look_at.most[number]
     closest = finest(block, contact, most)
+    noise = GAP_NOISE * length_scale(block)
     look_no_deeper(block, most * closest)
     found = 2.0
     while look_at.reached[number] <= after:
         now = look_at.reached[number]
         # who has had less to go than to the next look may have passed
         look_across(block, now > 0.0 and look_at.next[number, 0] < most * closest)
-        value = value_at(block, number, now)[0] - GAP_NOISE
+        value = value_at(block, number, now)[0] - noise
         if value <= 0.0 and now > 0.0:
             found = _since_last_look(block, number, now, value)
             break
@@ -98,7 +100,7 @@ def meets_since(block: Array, number: int, end: float) -> float:
     closest = finest(block, guard_of(block, number)[1], most)
     look_no_deeper(block, most * closest)
     look_across(block, above < most * closest)
-    value = value_at(block, number, end)[0] - GAP_NOISE
+    value = value_at(block, number, end)[0] - GAP_NOISE * length_scale(block)
     found = 2.0
     if value <= 0.0:
         found = _since_last_look(block, number, end, value)
@@ -112,9 +114,10 @@ def _since_last_look(block: Array, number: int, after: float, value: float) -> f
     """Where a distance came down to zero between the last look and `after`, where it is `value`."""
     keep_apart()
     look_at = Watch(block)
-    close = GAP_NOISE / look_at.most[number]
+    noise = GAP_NOISE * length_scale(block)
+    close = noise / look_at.most[number]
     above, before = look_at.next[number, 0], look_at.next[number, 1]
-    found = falls_between(block, number, before, above, after, value, GAP_NOISE, close)
+    found = falls_between(block, number, before, above, after, value, noise, close)
     return _before_crossing(block, number, found, close)
 
 
@@ -123,13 +126,14 @@ def _before_crossing(block: Array, number: int, after: float, close: float) -> f
     """Where two corners touched, right before elements that cross were all that said so; or `after`."""
     keep_small()
     look_across(block, False)
-    if value_at(block, number, after)[0] <= GAP_NOISE:
+    noise = GAP_NOISE * length_scale(block)
+    if value_at(block, number, after)[0] <= noise:
         return after
     part = _CORNERS_PART * CORNERS_TOUCH / GAP_NOISE * close
     for k in range(1, _CORNERS_LOOKS + 1):
         if after - k * part <= 0.0:
             break
-        if value_at(block, number, after - k * part)[0] <= GAP_NOISE:
+        if value_at(block, number, after - k * part)[0] <= noise:
             return after - k * part
     return after
 
@@ -168,7 +172,7 @@ def fastest_to_end(block: Array, at: Pose, contact: int) -> float:
 def refine_end(block: Array, contact: int, step_size: float) -> float:
     """The step size at which the true step ends with the place of contact right at the end of its feature.
 
-    The guard has fired `MARGIN` beyond it, where the feature that follows would have turned the normal already. By
+    The guard has fired `PASSES_BY` beyond it, where the feature that follows would have turned the normal already. By
     Newton's method with the slope of the dense output there; that step is the last one tried.
     """
     keep_small()
@@ -184,7 +188,7 @@ def refine_end(block: Array, contact: int, step_size: float) -> float:
             return size
         left = left_to_go(block, place_bodies(block, s.y_new), contact)[0]
         move = left / slope
-        if abs(left) <= _AT_THE_END or not 0.0 < size + move <= step_size:
+        if abs(left) <= _AT_THE_END * length_scale(block) or not 0.0 < size + move <= step_size:
             return size
         size += move
         try_step(block, start, size)

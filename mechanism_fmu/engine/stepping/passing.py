@@ -26,12 +26,14 @@ from ..constraints.rows import row_count
 from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
-from ..vectors import clear, copy, largest
+from ..profiles.curves import within_motions
+from ..scales import largest_off, unknown_scale
+from ..vectors import clear, copy
 from .events import first_event
 from .runge_kutta import ABSOLUTE_FRACTION, try_step
 from .singular import SINGULAR_BELOW, independence, least_independence
 from .stage import note_pushes
-from .step_size import scale_of_step, smallest_step, within_motions, within_ramp
+from .step_size import scale_of_step, smallest_step, within_ramp
 
 _LAST = METHOD.last
 _BEFORE_LAST = METHOD.interior[-1]
@@ -112,7 +114,7 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     """
     keep_small()
     sine = math.sqrt(Course(block).independence_end[0])
-    if not (sine > _LEAST_SINE and apart > smallest_step(start)):
+    if not (sine > _LEAST_SINE and apart > smallest_step(block, start)):
         return REFUSED, 0.0
     beyond = apart * _spread(block, sine)
     spacing = _SPACING * beyond
@@ -267,7 +269,7 @@ def _distance(block: Array, y: Array, other: Array) -> float:
     least = _square(block, y[n:])
     for i in range(2 * n, Sizes(block).y_wear):
         if i >= Sizes(block).y_alpha:
-            least = ABSOLUTE_FRACTION
+            least = ABSOLUTE_FRACTION * unknown_scale(block, i)
         most = max(most, abs(y[i] - other[i]) / (least + abs(y[i])))
     error: float = most / relative
     return error
@@ -306,8 +308,8 @@ def _put_right(block: Array, start: float, size: float) -> float:
     close_rows(block, s.y_new, 0.0, 0.0)
     derivative(block, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
-    s.drift[0] = largest(Rows(block).residual, count)
-    s.drift[1] = largest(Rows(block).residual_rate, count)
+    s.drift[0] = largest_off(block, Rows(block).residual, count)
+    s.drift[1] = largest_off(block, Rows(block).residual_rate, count)
     return _distance(block, s.y_new, s.y_at)
 
 

@@ -20,7 +20,8 @@ from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..elementary import power
 from ..interpolation import write_dense
-from ..vectors import clear, largest
+from ..scales import largest_off, rate_scale, unknown_scale
+from ..vectors import clear
 from .rosenbrock import error_of_implicit, implicit_stages, passed_on
 from .stage import evaluate_stage
 
@@ -31,8 +32,10 @@ _A = METHOD.a
 _ERROR = METHOD.error
 _ERROR_EXPONENT = METHOD.error_exponent
 
-#: Absolute tolerance as a fraction of the relative one, for every unknown (m, rad, m/s, rad/s, J).
+#: Absolute tolerance as a fraction of the relative one, for every unknown, in its scale.
 ABSOLUTE_FRACTION = 1e-3
+#: The first step where nothing is known of the motion, in parts of its time.
+_FIRST_STEP = 1e-6
 
 
 @jit
@@ -65,8 +68,8 @@ def try_step(block: Array, start: float, size_: float) -> float:
         _explicit_stages(block, start, h)
     evaluate_stage(block, start + h, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
-    s.drift[0] = largest(Rows(block).residual, count)
-    s.drift[1] = largest(Rows(block).residual_rate, count)
+    s.drift[0] = largest_off(block, Rows(block).residual, count)
+    s.drift[1] = largest_off(block, Rows(block).residual_rate, count)
     if not implicit:
         write_dense(block, h)
     return _error_norm(block, h)
@@ -130,7 +133,7 @@ def scaled_error(block: Array, i: int, h: float) -> float:
         if _ERROR[j] != 0.0:
             error += _ERROR[j] * k[j, i]
     error *= h
-    size = ABSOLUTE_FRACTION + max(abs(s.y_start[i]), abs(s.y_new[i]))
+    size = ABSOLUTE_FRACTION * unknown_scale(block, i) + max(abs(s.y_start[i]), abs(s.y_new[i]))
     if Course(block).counters[codes.IMPLICIT] == 1:
         error = error_of_implicit(block, i)
         size += passed_on(block, i, h)
@@ -148,25 +151,28 @@ def initial_step_size(block: Array) -> float:
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
     size_y = size_dy = 0.0
     for i in range(n):
-        scale = relative * (ABSOLUTE_FRACTION + abs(now.y_end[i]))
+        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i) + abs(now.y_end[i]))
         size_y += (now.y_end[i] / scale) * (now.y_end[i] / scale)
         size_dy += (now.dy_end[i] / scale) * (now.dy_end[i] / scale)
     size_y = math.sqrt(size_y / n)
     size_dy = math.sqrt(size_dy / n)
-    first = 1e-6
-    if size_y > 1.0 and size_dy > 1e-5:  # what is no larger than its tolerance says nothing of how fast it may change
+    rate = rate_scale(block)
+    least = _FIRST_STEP / rate
+    first = least
+    # what is no larger than its tolerance says nothing of how fast it may change
+    if size_y > 1.0 and size_dy > 1e-5 * rate:
         first = 0.01 * size_y / size_dy
     _euler(now.y_end, now.dy_end, first, s.y_stage)
     set_time(block, now.clock[codes.STEP_END] + first)
     derivative(block, s.y_stage, s.dy_at)
     bend = 0.0
     for i in range(n):
-        scale = relative * (ABSOLUTE_FRACTION + abs(now.y_end[i]))
+        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i) + abs(now.y_end[i]))
         difference = (s.dy_at[i] - now.dy_end[i]) / scale
         bend += difference * difference
     bend = math.sqrt(bend / n) / first
-    steepest = max(size_dy, bend)
-    second = max(1e-6, first * 1e-3)
+    steepest = max(size_dy / rate, bend / (rate * rate))  # in the time of the mechanism
+    second = max(least, first * 1e-3)
     if steepest > 1e-15:
-        second = power(0.01 / steepest, 1.0 / _ERROR_EXPONENT)
+        second = power(0.01 / steepest, 1.0 / _ERROR_EXPONENT) / rate
     return min(100.0 * first, second)

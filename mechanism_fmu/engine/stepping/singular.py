@@ -22,6 +22,7 @@ from ..constraints.rows import active_rows
 from ..dynamics.forces import set_time
 from ..dynamics.linear_solve import factorise, write_matrix
 from ..interpolation import interpolate
+from ..scales import length_scale
 
 _LAST = METHOD.last
 _INTERIOR = METHOD.interior
@@ -140,9 +141,10 @@ def _independence_at(block: Array, fraction: float) -> float:
     count = active_rows(block, at)
     weight = Loads(block).weight
     root = Bodies(block).inverse_root_mass
+    length = length_scale(block)
     for k in range(Sizes(block).coordinates):
-        # One, in scratch of the start, which is over. A loop of ones becomes a call of what only macOS has.
-        weight[k] = root[k] / root[k]
+        # In scratch of the start, which is over. A loop of ones becomes a call of what only macOS has.
+        weight[k] = root[k] / root[k] if k % 3 == 2 else length
     write_matrix(block, count, weight)
     factorise(block, count, Sizes(block).coordinates)
     return independence(block)

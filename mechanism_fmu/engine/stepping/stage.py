@@ -12,9 +12,11 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs, sticks
 from ..constraints.rows import row_count
-from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
+from ..contacts.complementarity import hold_ratio, push_ratio
+from ..contacts.guards import can_open
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
+from ..dynamics.rounding import note_level
 from .singular import independence
 
 
@@ -37,17 +39,22 @@ def evaluate_stage(block: Array, time: float, y: Array, dy: Array) -> None:
 
 @jit
 def note_pushes(block: Array) -> None:
-    """After an acceleration: keep the least and the largest force of every closed contact."""
+    """After an acceleration: keep the least and the largest force of every closed contact that can open."""
     table = Contacts(block)
-    tolerance = push_tolerance(block, row_count(block))
+    is_noted = False
     for c in range(table.mode.shape[0]):
-        if table.mode[c] == codes.CLOSED:
-            push = push_ratio(block, c, tolerance)
+        if table.mode[c] == codes.CLOSED and can_open(block, c):
+            if not is_noted:
+                note_level(block, row_count(block))
+                is_noted = True
+            push = push_ratio(block, c)
             table.least_push[c] = min(table.least_push[c], push)
             table.most_push[c] = max(table.most_push[c], push)
     if not rubs(block):
         return
+    if not is_noted:
+        note_level(block, row_count(block))
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
         if sticks(block, k):
-            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k, tolerance))
+            rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k))

@@ -7,20 +7,23 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, Implicit, LinearSystem, Stages
+from ...tables.motion import Course, Implicit, Stages
 from ...tables.parts import Contacts, Options, Thresholds
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
 from ..contacts.binding import deepest_overlap
+from ..contacts.complementarity import push_ratio
 from ..contacts.inside import blame, is_one_inside
 from ..contacts.transition import release
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, derivative, mend
 from ..dynamics.forces import set_time
+from ..dynamics.rounding import note_level
 from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
+from ..scales import rate_scale
 from ..vectors import clear, copy
 from .closing import closes_step
 from .crossing import first_crossing, refine_crossing
@@ -35,8 +38,8 @@ from .stiffness import choose_method
 
 # When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing.
 
-#: A contact force below this pulls [N]; rounding leaves about 1e-13.
-_PULLS_BELOW = -1e-9
+#: A contact pulls where its force is below so many times its rounding.
+_PULLS_BELOW = -10.0
 _BISECTIONS = 50
 
 
@@ -45,11 +48,15 @@ def watch_at(block: Array, time: float) -> None:
     """Note `time` for every contact that pulls for the first time, by the multipliers of the last acceleration."""
     keep_small()
     table = Contacts(block)
-    system = LinearSystem(block)
+    is_noted = False
     for c in range(table.mode.shape[0]):
         held = table.mode[c] == codes.CLOSED and table.value[c, codes.GUIDED] > 0.5
-        pulls = held and system.multiplier[table.row[c]] < _PULLS_BELOW
-        if pulls and table.pull_time[c] == math.inf:
+        if not held or table.pull_time[c] != math.inf:
+            continue
+        if not is_noted:
+            note_level(block, row_count(block))
+            is_noted = True
+        if push_ratio(block, c) < _PULLS_BELOW:
             table.pull_time[c] = time
             Course(block).counters[codes.COUNT_PULLS] += 1
 
@@ -70,7 +77,6 @@ def watch_step(block: Array) -> None:
 @jit
 def _locate(block: Array, contact: int) -> float:
     keep_small()
-    table = Contacts(block)
     now = Course(block)
     s = Stages(block)
     before = 0.0
@@ -80,7 +86,8 @@ def _locate(block: Array, contact: int) -> float:
         interpolate(now.dense, middle, s.y_at)
         set_time(block, now.clock[codes.STEP_START] + middle * now.clock[codes.STEP_SIZE])
         derivative(block, s.y_at, s.dy_at)
-        if LinearSystem(block).multiplier[table.row[contact]] < _PULLS_BELOW:
+        note_level(block, row_count(block))
+        if push_ratio(block, contact) < _PULLS_BELOW:
             after = middle
         else:
             before = middle
@@ -125,14 +132,14 @@ def take_step(block: Array) -> int:
         _refuse(block, wanted, method)
         is_one_inside(block)
         return status.PENETRATED
-    hops = 0.5 * fraction * step > smallest_step(start) and comes_down_beside(block, guard, subject, fraction)
+    hops = 0.5 * fraction * step > smallest_step(block, start) and comes_down_beside(block, guard, subject, fraction)
     if hops:  # at the top of its hop it is let loose, and what is below is looked for
         guard = codes.GUARD_NONE
         subject = codes.NONE
         fraction *= 0.5
     if ends or hops:
         step *= fraction
-        if step > smallest_step(start):
+        if step > smallest_step(block, start):
             if crossing != codes.NONE:
                 step = refine_crossing(block, crossing, step)
             else:
@@ -236,7 +243,9 @@ def _keep(block: Array, start: float, step: float) -> None:
     now.clock[codes.STEP_START] = start
     now.clock[codes.STEP_SIZE] = step
     now.clock[codes.STEP_END] = start + step
-    if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(start):
+    if now.counters[codes.RAMPING] != 0 and abs(start + step - now.clock[codes.RAMP_END]) <= smallest_step(
+        block, start
+    ):
         now.clock[codes.STEP_END] = now.clock[codes.RAMP_END]
     copy(s.y_new, now.y_end)
     copy(s.derivatives[_LAST], now.dy_end)
@@ -253,7 +262,7 @@ def _mend_and_check(block: Array) -> int:
     now = Course(block)
     set_time(block, now.clock[codes.STEP_END])
     drift = Stages(block).drift
-    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT)
+    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT * rate_scale(block))
     mends = not closes_step(block) and (drifted or Sizes(block).alphas > 0)
     if mends and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)

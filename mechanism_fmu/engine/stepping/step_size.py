@@ -8,16 +8,17 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
 from ...tables.motion import Course, LinearSystem, Rubs, Stages
-from ...tables.parts import Contacts, Curves, Joints
+from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import slips
 from ..constraints.kinematics import place_bodies
 from ..elementary import power
-from ..profiles.curves import quarter_wave
+from ..profiles.curves import NEARLY, within_motions
 from ..profiles.nearest import least_fit
 from ..profiles.shape import passes_join
+from ..scales import rate_scale
 from ..vectors import dot
 from .reach import IN_LINE, is_out_of_reach
 from .runge_kutta import scaled_error, try_step
@@ -29,79 +30,21 @@ from .stiffness import is_beyond_explicit, look_stiff
 # An input is unknown beyond the end of its slope. A mechanism at rest needs no step at all: it would stride over a
 # short motion of a driver without noticing, since none of its stages falls into it.
 
-#: A step that comes so near to the end of a slope or of a piece goes there.
-_NEARLY = 0.99
-
 
 @jit
 def within_ramp(block: Array, start: float, step: float) -> float:
     """The step, or what is left until slopes of inputs end."""
     now = Course(block)
     left: float = now.clock[codes.RAMP_END] - start
-    if now.counters[codes.RAMPING] != 0 and step > _NEARLY * left:
+    if now.counters[codes.RAMPING] != 0 and step > NEARLY * left:
         return left
     return step
-
-
-@jit
-def within_motions(block: Array, start: float, step: float) -> float:
-    """The step, or what is left of it to the next piece of a driver's motion, or to a quarter of its wave [s]."""
-    keep_small()
-    table = Joints(block)
-    for k in range(table.kind.shape[0]):
-        if table.curve[k] != codes.NONE:
-            step = _within_motion(block, table.curve[k], start, step)
-    return step
-
-
-@jit
-def _within_motion(block: Array, number: int, start: float, step: float) -> float:
-    """The step, or what is left of it to the next piece of one curve, or to a quarter of its wave [s]."""
-    keep_small()
-    left = left_to_piece(block, number, start)
-    if _NEARLY * left < step:
-        step = left
-    table = Curves(block)
-    here = table.piece[number]
-    after = here + table.pieces[number]
-    turns = _periods_before(block, number, start)
-    while here + 1 < after and table.piece_start[here + 1] + turns <= start:
-        here += 1
-    return min(step, quarter_wave(block, here))
-
-
-@jit
-def left_to_piece(block: Array, number: int, start: float) -> float:
-    """How far the next piece of a curve over time is from `start` [s]; infinite behind the last one."""
-    keep_small()
-    table = Curves(block)
-    first = table.piece[number]
-    turns = _periods_before(block, number, start)
-    nearest = math.inf
-    for p in range(first, first + table.pieces[number]):
-        left = table.piece_start[p] + turns - start
-        if left <= 0.0 and table.periodic[number] == 1:
-            left += table.range[number, 1]
-        if left > 0.0:
-            nearest = min(nearest, left)
-    return nearest
-
-
-@jit
-def _periods_before(block: Array, number: int, start: float) -> float:
-    """Whole periods of a curve before `start` [s]; none where it has no period."""
-    keep_small()
-    table = Curves(block)
-    turns = 0.0
-    if table.periodic[number] == 1:
-        turns = math.floor((start - table.range[number, 0]) / table.range[number, 1]) * table.range[number, 1]
-    return turns
 
 
 # The size of a step: as long as its error allows, and no longer than what may happen within it.
 
 _ERROR_EXPONENT = METHOD.error_exponent
-#: Smallest step as a fraction of max(1 s, |t|).
+#: Smallest step as a fraction of the mechanism's time, or of |t| if that is more.
 _SMALLEST_STEP = 1e-15
 #: Where there are guards or thresholds, no body turns further than this in one step [rad]: a step without error may be
 #: of any length, and would pass over what a turning point meets in every turn.
@@ -130,7 +73,7 @@ def accurate_step(block: Array, start: float) -> float:
     now = Course(block)
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     if now.counters[codes.IMPLICIT] == 1:  # what a first step is guessed from may be what is stiff
-        wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(start))
+        wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(block, start))
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
     error = _try(block, start, step)
@@ -140,18 +83,15 @@ def accurate_step(block: Array, start: float) -> float:
         tried = step
         step = representable(start, step * scale_of_step(error, 1.0))
         grow_most = 1.0
-        if not step > smallest_step(start):
-            if (
-                error < math.inf
-                and Sizes(block).alphas > 0
-                and passes_join(block, Stages(block).y_start, Stages(block).y_new)
-            ):
+        if not step > smallest_step(block, start):
+            joins = error < math.inf and Sizes(block).alphas > 0
+            if joins and passes_join(block, Stages(block).y_start, Stages(block).y_new):
                 step = tried  # the curvature jumps there, and with it accelerations: rates by no more than rounding
                 error = 1.0
                 break
             if not is_beyond_explicit(block):
                 return 0.0
-            step = representable(start, _FIRST_IMPLICIT * smallest_step(start))
+            step = representable(start, _FIRST_IMPLICIT * smallest_step(block, start))
         error = _try(block, start, step)
     look_stiff(block)
     now.clock[codes.NEXT_STEP] = step * scale_of_step(error, grow_most)
@@ -161,9 +101,9 @@ def accurate_step(block: Array, start: float) -> float:
 
 
 @jit
-def smallest_step(start: float) -> float:
+def smallest_step(block: Array, start: float) -> float:
     """The size that a step from `start` [s] must exceed [s]."""
-    return _SMALLEST_STEP * max(1.0, abs(start))
+    return _SMALLEST_STEP * max(1.0 / rate_scale(block), abs(start))
 
 
 @jit

@@ -23,6 +23,7 @@ from ..contacts.transition import release, transit
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import feed, inputs_changed, set_time, show_reached, take_inputs
 from ..dynamics.oscillation import observe
+from ..dynamics.scaling import note_slopes
 from ..dynamics.thresholds import change_sides
 from ..interpolation import interpolate
 from ..vectors import clear, copy
@@ -116,6 +117,7 @@ def _move(block: Array, target: float, rule: int) -> int:
     feed(block, Ports(block).held_inputs)  # a restored state brings its own
     if now.counters[codes.RAMPING] != 0:
         now.clock[codes.RAMP_END] = target
+        note_slopes(block)
     while True:
         # At the very beginning, and after a stop before an event, there is one to come at TIME.
         waits = now.counters[codes.PENDING_GUARD] != codes.GUARD_NONE

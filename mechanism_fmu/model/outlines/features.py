@@ -45,7 +45,7 @@ def _vertex(at: Point, arrives: Point, leaves: Point) -> tuple[Number, ...]:
 #: From one copy to the next: an angle [rad], and lengths in x and y [m].
 Step = tuple[Number, Number, Number]
 
-#: Ends of copies that are nearer to each other than this join [m].
+#: Ends of copies join that are nearer to each other than this part of how far they are from the origin.
 _JOIN_WITHIN = 1e-9
 
 
@@ -69,7 +69,8 @@ def _last_end(at: Point, arrives: Point, first: Point, leaves: Point, step: Step
 
 def _if_joined(one: Point, other: Point, then: tuple[Number, ...], otherwise: tuple[Number, ...]) -> tuple[Number, ...]:
     dx, dy = one[0] - other[0], one[1] - other[1]
-    left = _JOIN_WITHIN * _JOIN_WITHIN - dx * dx - dy * dy
+    far = one[0] * one[0] + one[1] * one[1] + other[0] * other[0] + other[1] * other[1]
+    left = _JOIN_WITHIN * _JOIN_WITHIN * far - dx * dx - dy * dy
     return tuple(where_positive(left, a, b) for a, b in zip(then, otherwise, strict=True))
 
 

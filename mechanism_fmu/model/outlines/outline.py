@@ -18,7 +18,7 @@ from ..functions import Number, cos, is_plain, sin, sqrt, where_positive
 from ..quantities import pair, quantity
 from .element import Element
 
-#: No element may be shorter [m].
+#: No element may be shorter than this part of all elements together.
 SHORTEST = 1e-9
 
 
@@ -176,10 +176,13 @@ class Outline:
             label: how messages call it.
         """
         said = literal(label)
-        for k, element in enumerate(self.elements):
-            long = length(element.chord)
-            text = f"{said}: element {k} is {{:g}} m long, but it must be longer than {SHORTEST:g} m."
-            yield refuse_unless(positive(long - SHORTEST), text, long)
+        chords = [length(element.chord) for element in self.elements]
+        shortest = SHORTEST * sum(chords, 0.0)
+        for k, long in enumerate(chords):
+            text = (
+                f"{said}: element {k} is {{:g}} m long, but it must be longer than {{:g}} m, {SHORTEST:g} of them all."
+            )
+            yield refuse_unless(positive(long - shortest), text, long, shortest)
         if self.closed:
             area = self.area().area
             way = "clockwise, as a hole" if self.hole else "counter-clockwise"

@@ -13,6 +13,8 @@ from .outline import Outline
 #: What stands in a path: a letter, or a number.
 _TOKEN = re.compile(r"([A-Za-z])|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 
+#: A path ends where it begins when the ends are nearer than this part of the size of the coordinates.
+_SAME = 1e-9
 #: How many numbers belong to a command.
 _NUMBERS = {"M": 2, "L": 2, "H": 1, "V": 1, "A": 7, "Z": 0}
 
@@ -85,7 +87,8 @@ def from_svg_path(path: str, scale: float = 1e3, *, hole: bool = False) -> Outli
         if bulge and vertices:
             vertices[-1] = (*vertices[-1][:2], bulge)
         vertices.append((x / scale, -y / scale, 0.0))
-    if closed and len(vertices) > 1 and math.dist(vertices[0][:2], vertices[-1][:2]) <= 1e-9:
+    size = max(abs(number) for x, y, _ in vertices for number in (x, y)) if vertices else 0.0
+    if closed and len(vertices) > 1 and math.dist(vertices[0][:2], vertices[-1][:2]) <= _SAME * size:
         vertices.pop()
     return Outline(tuple(vertices), closed, hole)
 

@@ -49,11 +49,11 @@ def guards_and_times(simulation, until, slope=1.0):
 
 @pytest.mark.parametrize("opens", [0.02, 0.3, 0.77, 1.0 - 1e-6])
 def test_a_contact_lets_go_when_its_force_has_gone(opens):
-    """It may lack 2e-9 N, within which a force still pushes: that is the only delay."""
+    """It may lack some 1e-9 of the force at the start, within which it still pushes: that is the only delay."""
     simulation = pressed([opens])
     guards, times = guards_and_times(simulation, 1.0)
     assert guards == ["floor0.force"]
-    assert times[0] == pytest.approx(opens + 2e-9, abs=1e-10)
+    assert opens <= times[0] <= opens + 2e-9
     assert simulation.read()["y0"] == pytest.approx((1.0 - opens) ** 3 / 6 / MASS, abs=1e-9)
 
 

@@ -24,7 +24,15 @@ def walls(*places, **options):
         for k, place in enumerate(places)
     )
     body = Body("ball", 1.0, 1.0, (max(places) if options else 10.0, 0.0, 0.0))
-    return Simulation(Mechanism(bodies=(body,), contacts=contacts))._block
+    return of_scale_one(Mechanism(bodies=(body,), contacts=contacts))
+
+
+def of_scale_one(mechanism):
+    """The block of a mechanism, in which tolerances are as they stand."""
+    block = Simulation(mechanism)._block
+    field_of(block, "scales")[:] = 1.0
+    field_of(block, "body_scales")[:] = 1.0
+    return block
 
 
 def found(block, x, *, touching=()):
@@ -212,4 +220,4 @@ def test_a_guard_that_is_no_gap_and_is_not_passed_waits(angle):
 def wheel():
     """The block of a wheel on a stop that has clicked at 0.1 and does so next at 0.6."""
     body = Body("wheel", 1.0, 1.0, (0.0, 0.0, 0.2))
-    return Simulation(Mechanism(bodies=(body,), contacts=(AngleStop("pawl", "wheel", GROUND, 0.1, 0.5),)))._block
+    return of_scale_one(Mechanism(bodies=(body,), contacts=(AngleStop("pawl", "wheel", GROUND, 0.1, 0.5),)))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mechanism_fmu import codes
+from mechanism_fmu.engine.dynamics.scaling import LENGTH, RATE
 from mechanism_fmu.model import (
     GROUND,
     Body,
@@ -20,6 +21,9 @@ from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tolerances import RESTS_BELOW, STICK_SPEED, TOUCHES_WITHIN
 
 MASS = 0.7
+#: What has scale 1 (`dynamics.scaling`), and the ball's radius of gyration and its speed of 1 m/s over that.
+SIZE, SPEED = math.sqrt(0.1 / MASS) / LENGTH, 1.0 / (LENGTH * RATE)
+TOUCHES, RESTS, STICKS = SIZE * TOUCHES_WITHIN, SPEED * RESTS_BELOW, SPEED * STICK_SPEED
 ENERGIES = tuple(Output(name, f"energy.{name}", "") for name in ("kinetic", "work", "lost"))
 
 
@@ -101,20 +105,20 @@ def low_flight(height, *, fall=0.0, degrees=-30, **options):
     return simulation
 
 
-SLOW = 0.5 * RESTS_BELOW
+SLOW = 0.5 * RESTS
 S, C = math.sin(math.radians(30)), math.cos(math.radians(30))
 
 
 def test_a_contact_within_reach_takes_part_though_it_is_open():
     """Both hold the ball at once: one impact, after which the ball rests in the corner."""
-    simulation = low_flight(0.7 * TOUCHES_WITHIN, fall=SLOW)
+    simulation = low_flight(0.7 * TOUCHES, fall=SLOW)
     assert [hit.contact for hit in simulation.impacts_in_step()] == ["slope"]
     np.testing.assert_allclose(impulses(simulation), [MASS * S / C, MASS / C], rtol=1e-8)
     np.testing.assert_allclose(rates(simulation), 0.0, atol=1e-12)
     assert simulation.mode() == ("floor", "slope")
 
 
-@pytest.mark.parametrize("height", [2 * TOUCHES_WITHIN, 1e-5])
+@pytest.mark.parametrize("height", [2 * TOUCHES, 1e-5])
 def test_a_contact_out_of_reach_takes_no_part(height):
     """The ball is sent down along the wall, and strikes the floor later."""
     simulation = low_flight(height)
@@ -126,7 +130,7 @@ def test_a_contact_out_of_reach_takes_no_part(height):
 
 @pytest.mark.parametrize(("fall", "struck"), [(SLOW, ["slope"]), (5 * SLOW, ["floor", "slope"])])
 def test_a_contact_within_reach_strikes_when_it_approaches_faster_than_at_rest(fall, struck):
-    simulation = low_flight(0.7 * TOUCHES_WITHIN, fall=fall)
+    simulation = low_flight(0.7 * TOUCHES, fall=fall)
     hits = simulation.impacts_in_step()
     assert [hit.contact for hit in hits] == struck
     assert hits[0].closing_speed == pytest.approx(fall if len(hits) == 2 else C, rel=1e-6)
@@ -135,10 +139,10 @@ def test_a_contact_within_reach_strikes_when_it_approaches_faster_than_at_rest(f
 
 def test_an_open_guided_contact_within_reach_takes_no_part_while_it_is_at_rest():
     """Driven up, the ball is free of it; driven down, it strikes the floor in the next round, at the same instant."""
-    up = low_flight(0.7 * TOUCHES_WITHIN, fall=SLOW, degrees=30, guided=True)
+    up = low_flight(0.7 * TOUCHES, fall=SLOW, degrees=30, guided=True)
     np.testing.assert_allclose(impulses(up), [0.0, MASS * C], rtol=1e-8)
     np.testing.assert_allclose(rates(up), [S**2, S * C], rtol=1e-8)
-    down = low_flight(0.7 * TOUCHES_WITHIN, fall=SLOW, guided=True)
+    down = low_flight(0.7 * TOUCHES, fall=SLOW, guided=True)
     np.testing.assert_allclose(impulses(down), [0.0, MASS * C], rtol=1e-8)
     first, second = down.impacts_in_step()[:2]
     assert (first.contact, second.contact) == ("slope", "floor")
@@ -149,8 +153,8 @@ def test_an_open_guided_contact_within_reach_takes_no_part_while_it_is_at_rest()
 
 @pytest.mark.parametrize(("factor", "returned"), [(1 + 1e-6, 0.5), (1 - 1e-6, 0.0)])
 def test_an_impact_that_would_return_more_slowly_than_the_stick_speed_sticks(factor, returned):
-    speed = factor * STICK_SPEED / 0.5
-    simulation = ball([floor(restitution=0.5)], (0.0, speed), (0.0, -speed))
+    speed = factor * STICKS / 0.5
+    simulation = ball([floor(restitution=0.5)], (0.0, speed), (1.0, -speed))
     simulation.advance(1.5)
     (hit,) = simulation.impacts_in_step()
     assert hit.impulse == pytest.approx((1 + returned) * MASS * speed, rel=1e-9)
@@ -158,14 +162,21 @@ def test_an_impact_that_would_return_more_slowly_than_the_stick_speed_sticks(fac
     assert simulation.mode() == (() if returned else ("floor",))
 
 
+def test_what_nothing_presses_returns_however_slowly():
+    speed = 1e-9
+    simulation = ball([floor(restitution=0.5)], (0.0, speed), (0.0, -speed))
+    simulation.advance(1.5)
+    assert rates(simulation)[1] == pytest.approx(0.5 * speed, rel=1e-9)
+
+
 @pytest.mark.parametrize("guided", [True, False])
 def test_what_arrives_more_slowly_than_at_rest_is_caught_but_strikes_only_if_guided(guided):
-    speed = 0.5 * RESTS_BELOW
-    simulation = ball([floor(guided=guided)], (0.0, 10 * speed), (0.0, -speed))
+    speed = 0.5 * RESTS
+    simulation = ball([floor(guided=guided)], (0.0, 10 * speed), (1.0, -speed))
     simulation.advance(20.0)
     assert len(simulation.impacts_in_step()) == guided
     assert simulation.mode() == ("floor",)
-    np.testing.assert_allclose(rates(simulation), 0.0, atol=1e-18 if guided else RESTS_BELOW)
+    np.testing.assert_allclose(rates(simulation)[1], 0.0, atol=1e-18 if guided else RESTS)
 
 
 def test_a_guided_contact_that_bounces_is_open_afterwards():
@@ -199,9 +210,9 @@ def test_a_row_that_a_function_closes_takes_the_speed_across_it(fall):
     )
     simulation.advance(1.5)
     hits = [(hit.contact, hit.closing_speed, hit.energy_lost) for hit in simulation.impacts_in_step()]
-    assert hits == ([("rail", pytest.approx(fall), pytest.approx(MASS / 2 * fall**2))] if fall > RESTS_BELOW else [])
+    assert hits == ([("rail", pytest.approx(fall), pytest.approx(MASS / 2 * fall**2))] if fall > RESTS else [])
     (event,) = simulation.events_in_step()
-    assert event.impulse == pytest.approx(MASS * fall if fall > RESTS_BELOW else 0.0, rel=1e-9)
+    assert event.impulse == pytest.approx(MASS * fall if fall > RESTS else 0.0, rel=1e-9)
     np.testing.assert_allclose(rates(simulation), [1.0, 0.0], atol=1e-15)
     assert simulation.read()["lost"] == pytest.approx(MASS / 2 * fall**2, rel=1e-9, abs=1e-15)
     simulation.advance(2.5)

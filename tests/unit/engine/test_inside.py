@@ -20,6 +20,7 @@ from mechanism_fmu.model import (
     rigid_body,
 )
 from mechanism_fmu.simulation import Simulation, SimulationError
+from mechanism_fmu.tolerances import MARGIN
 
 #: Distance of the flats of a square from its middle, about which a point turns at a radius of 1 m.
 FLAT = 0.6
@@ -71,10 +72,11 @@ def test_a_pattern_that_goes_on_to_a_copy_behind_whose_line_the_point_is(speed, 
         with pytest.raises(SimulationError) as caught:
             simulation.advance(2.0)
         text = str(caught.value)
-        assert text.startswith("t = 0.523598776 s: Two bodies that may touch have gone into each other")
+        assert text.startswith(f"t = {simulation.time:.9g} s: Two bodies that may touch have gone into each other")
         assert text.endswith(" Contact 'flat': the point of 'rotor' is 0.1 m behind the line on 'square'.")
-        assert simulation.time == pytest.approx(math.pi / 6, abs=2e-10)
-        assert simulation.read()["gap"] == pytest.approx(-0.1, abs=1e-9)
+        late = MARGIN * simulation.field("scales")[0]  # by which a boundary is passed before it counts, at some 1 m/s
+        assert simulation.time == pytest.approx(math.pi / 6, abs=2.0 * late)
+        assert simulation.read()["gap"] == pytest.approx(-0.1, abs=2.0 * late)
         assert simulation.impacts_in_step() == []
 
 
@@ -100,7 +102,7 @@ def bead(gap: float, speed: float = 0.0, **contact: object) -> Mechanism:
     return Mechanism(bodies=(body,), contacts=(floor,), outputs=(Output("gap", "floor.gap", "Gap"),))
 
 
-@pytest.mark.parametrize("depth", [1e-3, 1.1e-9])
+@pytest.mark.parametrize("depth", [1e-3, 1.4e-8])  # a bead with a radius of gyration of 1 m touches within 13 nm
 @pytest.mark.parametrize("speed", [-1.0, 0.0, 1.0])
 def test_what_is_inside_when_a_step_begins(depth, speed):
     """Whether it goes deeper, rests or comes out: nothing was there that could have brought it in."""

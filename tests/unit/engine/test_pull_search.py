@@ -15,7 +15,7 @@ from mechanism_fmu.simulation import Simulation
 from mechanism_fmu.tables.layout import field_of
 from mechanism_fmu.tolerances import PUSHES_WITHIN
 
-#: A contact opens when its force is less than minus this [N m].
+#: A contact opens when its force is less than minus this [N m], in a mechanism whose scales are 1.
 OPENS_BELOW = 2 * PUSHES_WITHIN
 LEVER, WALL = 0, 1
 DISC_ANGLE, OTHER_ANGLE = 5, 8
@@ -38,6 +38,8 @@ def found(push, *, gap=1.0 + 0 * T, seen=(-10.0, 10.0)):
     simulation = Simulation(mechanism)
     assert simulation.mode() == ("stop",)
     block = simulation._block
+    field_of(block, "scales")[:] = 1.0
+    field_of(block, "body_scales")[:] = 1.0
     field_of(block, "tried")[:] = (0.0, 1.0)
     field_of(block, "least_push")[:] = (seen[0], 0.0)
     field_of(block, "most_push")[:] = (seen[1], 0.0)

@@ -35,6 +35,8 @@ def corner(rate, *, height=0.0, restitution=0.0, up=False, **floor):
         PointLineContact("slope", "ball", (0.0, 0.0), GROUND, (1.0, 0.0), (-C, rise), restitution=restitution),
     )
     simulation = Simulation(Mechanism(bodies=(Body("ball", MASS, 0.1, (0.0, 0.3, 0.0)),), contacts=contacts))
+    simulation.field("scales")[:] = 1.0
+    simulation.field("body_scales")[:] = 1.0
     simulation.field("y_end")[:6] = [1.0 - height * S / C, height, 0.0, *rate, 0.0]
     return simulation
 

@@ -76,14 +76,14 @@ def test_the_motion_goes_forwards_only(target):
 
 
 def test_chattering_is_an_error_with_time_and_names():
-    """A ball at 1e6 m/s in a slit of 20 nm: 5e13 impacts a second."""
+    """A ball at 1e6 m/s in a slit of 20 nm: 5e13 impacts a second, 2e7 in the time in which it passes its own size."""
     walls = [
         PointLineContact(name, "ball", (0, 0), GROUND, (0.0, y), (0.0, side), restitution=1.0)
         for name, y, side in (("floor", 0.0, 1.0), ("lid", 2e-8, -1.0))
     ]
     ball = Body("ball", 1.0, 1.0, (0.0, 1e-8, 0.0), (0.0, 1e6, 0.0))
     simulation = Simulation(Mechanism((ball,), forces=(Force("none", "ball"),), contacts=tuple(walls)))
-    with pytest.raises(SimulationError, match=r"t = .* s: The contacts open and close without end"):
+    with pytest.raises(SimulationError, match=r"t = .* s: No progress"):
         simulation.advance(1.0)
     assert simulation.time < 1e-8
 

@@ -61,7 +61,7 @@ def test_values_may_be_texts() -> None:
             Case("a", "", signals={"crank_length": SineSignal(0.1, 0.0, 1.0)}),
             "there is no 'crank_length'; there are: dri",
         ),
-        (Case("a", "", {"crank_length": -1.0}), "case 'a': crank_length = -1, but it must be from 1e-06 to 1000"),
+        (Case("a", "", {"crank_length": -1.0}), "case 'a': crank_length = -1, but it must be from 1e-09 to 1000"),
         (Case("a", "", signals={"load_torque": TableSignal((0.0,), (2e6,))}), "load_torque = 2e+06, but it must be"),
         (Case("a", "", {"tooth_count": 10.5}), "tooth_count = 10.5 is not a whole number"),
         (Case("a", "", {"crank_length": "1 s"}), "crank_length wants m, got '1 s'"),

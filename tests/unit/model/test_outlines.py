@@ -226,7 +226,7 @@ def test_dimensions_may_be_parameters() -> None:
         ),
         (
             lambda: plate("p", Outline(((0, 0, 0), (1, 0, 0), (1, 1e-10, 0), (0, 1, 0))), mass=1.0),
-            "element 1 is 1e-10 m long, but it must be longer than 1e-09 m",
+            "element 1 is 1e-10 m long, but it must be longer than 3.41421e-09 m",
         ),
     ],
 )

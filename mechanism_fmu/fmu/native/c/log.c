@@ -228,14 +228,22 @@ static int residuals(Instance *x, const double *residual, double more_than, char
     return !first;
 }
 
+/* Start rates agree within this, be they in m/s or rad/s. */
+static double rates_within(Instance *x) {
+    double length = FIELD(x, scales)[CODE_SCALE_LENGTH], rate = FIELD(x, scales)[CODE_SCALE_PRESENT];
+    return RATES_WITHIN * (length < 1 ? length : 1) * (rate > 0 ? rate : 1);
+}
+
 /* A rate as it is shown: nothing where rounding is all there is. */
-static double shown(double rate) { return -RATES_WITHIN <= rate && rate <= RATES_WITHIN ? 0 : rate; }
+static double shown(Instance *x, double rate) {
+    return -rates_within(x) <= rate && rate <= rates_within(x) ? 0 : rate;
+}
 
 /* The bodies to which the joints give other rates than the start rates; where there are none, the joints. */
 static void contradictions(Instance *x, char *text, size_t size) {
     char part[600];
     *part = 0;
-    if (residuals(x, FIELD(x, residual_rate), RATES_WITHIN, part, sizeof part)) {
+    if (residuals(x, FIELD(x, residual_rate), rates_within(x), part, sizeof part)) {
         append(text, size, " No rates near them do; what is left: ");
         append(text, size, part);
         append(text, size, " (m/s, or rad/s). Drivers or closed contacts contradict each other.");
@@ -245,11 +253,11 @@ static void contradictions(Instance *x, char *text, size_t size) {
     const char *before = " They ask for other ones: ";
     for (size_t k = 0; k < n; k += 3) {
         const double *given = FIELD(x, body_start_rate) + k, *asked = FIELD(x, y_end) + n + k;
-        if (shown(asked[0] - given[0]) == 0 && shown(asked[1] - given[1]) == 0 && shown(asked[2] - given[2]) == 0)
+        if (shown(x, asked[0] - given[0]) == 0 && shown(x, asked[1] - given[1]) == 0 && shown(x, asked[2] - given[2]) == 0)
             continue;
         snprintf(part, sizeof part, "%sbody '%s' (%.6g, %.6g, %.6g), not (%.6g, %.6g, %.6g)", before,
-                 model.bodies[k / 3], shown(asked[0]), shown(asked[1]), shown(asked[2]), shown(given[0]),
-                 shown(given[1]), shown(given[2]));
+                 model.bodies[k / 3], shown(x, asked[0]), shown(x, asked[1]), shown(x, asked[2]), shown(x, given[0]),
+                 shown(x, given[1]), shown(x, given[2]));
         append(text, size, part);
         before = ", ";
     }

@@ -1,0 +1,174 @@
+"""How large a mechanism is, and how fast: the scales are written when the motion begins, the present rate at events.
+
+A mechanism whose masses are 4^k times those of another, or whose lengths are 4^k and whose times 2^k times, moves as
+the other one does, to the last digit: nothing here rounds powers of two.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ... import codes
+from ...tables.declare import Array
+from ...tables.motion import Course, LinearSystem, Loads, Rows, Stages
+from ...tables.parts import Bodies, Contacts, Outlines
+from ...tables.sizes import Sizes
+from ..compiler.subset import jit, keep_apart, keep_small
+from ..constraints.kinematics import place_bodies
+from ..constraints.rows import active_rows
+from ..vectors import clear
+from .forces import apply_forces, set_time
+from .islands import leader_of
+from .own_states import winding_rate
+
+#: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
+#: paper's model; the numbers of `tolerances` are for its size.
+LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 5.6264
+#: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
+_FAR = 2.0**-12
+#: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
+_FALLS = 2.0**-10
+#: A rate below this is none: the fifth power of its time is no number.
+_NOTHING = 2.0**-200
+
+
+@jit
+def note_sizes(block: Array) -> None:
+    """Write the scales of length and mass, from the bodies' start, and from the arms of the rows that are active.
+
+    The length of a body is the largest of its radius of gyration, of its arms, of the radius of its outlines, and of
+    a part of how far it is away.
+    """
+    keep_apart()
+    inverse = Bodies(block).inverse_mass
+    scales = Course(block).scales
+    own = Course(block).body_scales
+    n = Sizes(block).coordinates
+    reach = Loads(block).reach
+    clear(reach)
+    count = active_rows(block, place_bodies(block, Course(block).y_end))
+    for b in range(Sizes(block).bodies):
+        LinearSystem(block).leader[b] = b
+    for r in range(count):
+        entry = Rows(block).jacobian[r]
+        i, j = Rows(block).body[r, 0], Rows(block).body[r, 1]
+        for b in (i, j):
+            across = math.sqrt(entry[3 * b] * entry[3 * b] + entry[3 * b + 1] * entry[3 * b + 1])
+            if 3 * b < n and across > 0.0:
+                reach[b] = max(reach[b], abs(entry[3 * b + 2]) / across)
+        if 3 * i < n and 3 * j < n:
+            one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)
+            LinearSystem(block).leader[max(one, other)] = min(one, other)
+    table = Contacts(block)
+    for c in range(Sizes(block).contacts):
+        for outline, b in ((table.outline_i[c], table.body_i[c]), (table.outline_j[c], table.body_j[c])):
+            if outline != codes.NONE and 3 * b < n:
+                reach[b] = max(reach[b], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
+        if table.kind[c] == codes.POINT_LINE:
+            for point, b in ((table.data[c], table.body_i[c]), (table.line[c], table.body_j[c])):
+                if 3 * b < n:
+                    reach[b] = max(reach[b], math.sqrt(point[0] * point[0] + point[1] * point[1]))
+    widest = Loads(block).haste
+    clear(widest)
+    for b in range(Sizes(block).bodies):
+        leader = leader_of(LinearSystem(block), b)
+        widest[leader] = max(widest[leader], reach[b])
+    mass = length = 0.0
+    for k in range(0, n, 3):
+        b = k // 3
+        mass = max(mass, 1.0 / inverse[k])
+        far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
+        gyration = math.sqrt(inverse[k] / inverse[k + 2])
+        arm = reach[b] if reach[b] > 0.0 else widest[leader_of(LinearSystem(block), b)]
+        if arm > 0.0:
+            gyration = min(gyration, max(arm, far))  # the inertia of what shall not turn is no size
+        own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
+        own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = 0.0
+        length = max(length, own[b, codes.BODY_LENGTH])
+    clear(reach)
+    clear(Loads(block).haste)
+    for b in range(Sizes(block).bodies):
+        join_scales(block, leader_of(LinearSystem(block), b), b)
+    for b in range(Sizes(block).bodies):
+        take_scales(block, leader_of(LinearSystem(block), b), b)
+    scales[codes.SCALE_LENGTH] = length
+    scales[codes.SCALE_MASS] = mass / _MASS
+    scales[codes.SCALE_RATE] = 0.0
+    scales[codes.SCALE_PRESENT] = 0.0
+
+
+@jit
+def join_scales(block: Array, leader: int, body: int) -> None:
+    """Let what a body has by itself count for all bodies behind this leader, in `loads.haste` and `loads.reach`."""
+    load = Loads(block)
+    own = Course(block).body_scales[body]
+    load.haste[leader] = max(load.haste[leader], max(load.haste[body], _FALLS * own[codes.BODY_PACE]))
+    load.reach[leader] = max(load.reach[leader], own[codes.BODY_LENGTH])
+
+
+@jit
+def take_scales(block: Array, leader: int, body: int) -> None:
+    """Let a body have the scales that have been joined behind this leader."""
+    Course(block).body_scales[body, codes.BODY_EXTENT] = Loads(block).reach[leader]
+    Course(block).body_scales[body, codes.BODY_PACE] = Loads(block).haste[leader]
+
+
+@jit
+def note_rate(block: Array, least: float) -> None:
+    """Write the scale of the present rate from what acts and moves at y_end, and that of all rates, where none is yet.
+
+    It is `least` [1/s] or more, and that of a motor's winding where that is faster by orders. What nothing acts on and
+    nothing moves in goes by 1/s, until something does. The rate of each body by itself becomes `loads.haste`.
+    """
+    keep_apart()
+    rate = max(_note_haste(block), _in_scale(least))
+    winding = winding_rate(block) / RATE
+    if rate < _FALLS * winding:
+        rate = winding
+    _raise_rate(block, rate)
+    scales = Course(block).scales
+    scales[codes.SCALE_PRESENT] = max(rate, _FALLS * scales[codes.SCALE_PRESENT])
+
+
+@jit
+def note_slopes(block: Array) -> None:
+    """Raise the scale of rates where what acts at the end of the inputs' slopes is faster by orders."""
+    set_time(block, Course(block).clock[codes.RAMP_END])
+    _raise_rate(block, _note_haste(block))
+
+
+@jit
+def _raise_rate(block: Array, rate: float) -> None:
+    """Let this be the scale of rates where that is still smaller by orders, or none."""
+    scales = Course(block).scales
+    if scales[codes.SCALE_RATE] < _FALLS * rate:
+        scales[codes.SCALE_RATE] = rate
+
+
+@jit
+def _note_haste(block: Array) -> float:
+    """Let `loads.haste` be the rate of what acts on each body and moves at y_end, at the inputs of now; the largest."""
+    keep_small()
+    y = Course(block).y_end
+    n = Sizes(block).coordinates
+    apply_forces(block, place_bodies(block, y), y, Stages(block).dy_at)
+    inverse = Bodies(block).inverse_mass
+    size = Loads(block).size
+    haste = Loads(block).haste
+    clear(Loads(block).reach)
+    largest = 0.0
+    for k in range(0, n, 3):
+        length = LENGTH * Course(block).body_scales[k // 3, codes.BODY_EXTENT]
+        moves = max(max(abs(y[n + k]), abs(y[n + k + 1])) / length, abs(y[n + k + 2]))
+        acts = max(size[k], size[k + 1]) * inverse[k] / length
+        acts = max(acts, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
+        haste[k // 3] = _in_scale(max(moves, math.sqrt(acts)))
+        largest = max(largest, haste[k // 3])
+    return largest
+
+
+@jit
+def _in_scale(rate: float) -> float:
+    """Rate in scale; 0 of what is no number, as no step comes of that either, or so small that powers overflow."""
+    scaled = rate / RATE
+    return scaled if _NOTHING < scaled < math.inf else 0.0

@@ -1,0 +1,177 @@
+"""Scales of a mechanism, of which all thresholds of the engine are parts: length, rate, mass, and the present rate.
+
+All are 1 for a mechanism of the size of a hand that moves within a second: there the numbers of `tolerances` hold as
+they stand. Who writes them: `dynamics.scaling`.
+"""
+
+from __future__ import annotations
+
+import math
+
+from .. import codes
+from ..tables.declare import Array
+from ..tables.kinds import JOINTS
+from ..tables.motion import Course, Rows
+from ..tables.parts import Contacts, Forces, Functions, Joints
+from ..tables.sizes import Sizes
+from .compiler.subset import jit, keep_small
+
+_REVOLUTE = JOINTS.number("revolute")
+
+
+@jit
+def length_scale(block: Array) -> float:
+    """Length of the mechanism, in units of `dynamics.scaling`."""
+    return float(Course(block).scales[codes.SCALE_LENGTH])
+
+
+@jit
+def rate_scale(block: Array) -> float:
+    """One over the time in which the mechanism moves, as it is from its start."""
+    rate: float = Course(block).scales[codes.SCALE_RATE]
+    return rate if rate > 0.0 else 1.0
+
+
+@jit
+def present_rate(block: Array) -> float:
+    """One over the time in which the mechanism moves, by what acts since the last event."""
+    rate: float = Course(block).scales[codes.SCALE_PRESENT]
+    return rate if rate > 0.0 else 1.0
+
+
+@jit
+def pace_of(block: Array, i: int, j: int) -> float:
+    """One over the time in which two bodies, and what they are joined to, move by what has acted since their event."""
+    rate = _larger(block, i, j, codes.BODY_PACE)
+    return rate if rate > 0.0 else rate_scale(block)
+
+
+@jit
+def extent_of(block: Array, i: int, j: int) -> float:
+    """Length of two bodies, and of what they were joined to at their last event, in units of `dynamics.scaling`."""
+    length = _larger(block, i, j, codes.BODY_EXTENT)
+    return length if length > 0.0 else length_scale(block)
+
+
+@jit
+def _larger(block: Array, i: int, j: int, column: int) -> float:
+    """The larger scale of two bodies, of which one may be the ground."""
+    keep_small()
+    scales = Course(block).body_scales
+    bodies = Sizes(block).bodies
+    most = 0.0
+    if i < bodies:
+        most = scales[i, column]
+    if j < bodies:
+        most = max(most, scales[j, column])
+    return most
+
+
+@jit
+def bodies_of(block: Array, rub: int) -> tuple[int, int]:
+    """The two bodies of friction: of a contact, a joint, or a force element (see `friction_rows`)."""
+    contacts = Sizes(block).contacts
+    if rub < contacts:
+        return Contacts(block).body_i[rub], Contacts(block).body_j[rub]
+    rub -= contacts
+    if rub < Sizes(block).joints:
+        return Joints(block).body_i[rub], Joints(block).body_j[rub]
+    rub -= Sizes(block).joints
+    return Forces(block).body[rub], Forces(block).reaction[rub]
+
+
+@jit
+def force_scale(block: Array) -> float:
+    """Force that moves the mechanism in its time."""
+    mass: float = Course(block).scales[codes.SCALE_MASS]
+    return mass * length_scale(block) * rate_scale(block) * rate_scale(block)
+
+
+@jit
+def contact_unit(block: Array, contact: int) -> float:
+    """Scale of the gap of a contact: a length, of all bodies where outlines are searched; 1 of an angle."""
+    table = Contacts(block)
+    if table.kind[contact] == codes.ANGLE_STOP or table.kind[contact] == codes.ANGLE_LOCK:
+        return 1.0
+    if table.kind[contact] == codes.OUTLINE:
+        return length_scale(block)
+    return extent_of(block, table.body_i[contact], table.body_j[contact])
+
+
+@jit
+def contact_speed(block: Array, contact: int) -> float:
+    """Scale of the rate at which the gap of a contact changes."""
+    return contact_unit(block, contact) * pace_of(
+        block, Contacts(block).body_i[contact], Contacts(block).body_j[contact]
+    )
+
+
+@jit
+def slip_scale(block: Array, rub: int) -> float:
+    """Scale of the speed at which something with friction slips."""
+    i, j = bodies_of(block, rub)
+    return friction_unit(block, rub) * pace_of(block, i, j)
+
+
+@jit
+def friction_unit(block: Array, rub: int) -> float:
+    """Scale of the way that something with friction slips: a length; 1 of pins and brakes."""
+    contacts = Sizes(block).contacts
+    joints = Sizes(block).joints
+    if rub < contacts or (rub < contacts + joints and Joints(block).kind[rub - contacts] != _REVOLUTE):
+        i, j = bodies_of(block, rub)
+        return extent_of(block, i, j)
+    return 1.0
+
+
+@jit
+def row_unit(block: Array, row: int) -> float:
+    """Scale of what a row may be off, whatever its unit: by how much it changes where its bodies move by theirs."""
+    entry = Rows(block).jacobian[row]
+    along = across = 0.0
+    for end in range(2):
+        first = 3 * Rows(block).body[row, end]
+        across = max(across, abs(entry[first]), abs(entry[first + 1]))
+        along = max(along, abs(entry[first + 2]))
+    return max(along, across * extent_of(block, Rows(block).body[row, 0], Rows(block).body[row, 1]))
+
+
+@jit
+def guard_unit(block: Array, guard: int, subject: int) -> float:
+    """Scale of what a guard looks at; of slips, of the way."""
+    keep_small()
+    if guard == codes.GUARD_GAP or guard == codes.GUARD_CLICK:
+        return contact_unit(block, subject)
+    if guard == codes.GUARD_STICK:
+        return friction_unit(block, subject)
+    if guard == codes.GUARD_FUNCTION and Functions(block).kind[subject] == codes.ANGLE:
+        return 1.0
+    return length_scale(block)
+
+
+@jit
+def largest_off(block: Array, values: Array, count: int) -> float:
+    """Largest magnitude of what `count` rows, or their rates, are off, in scale; infinite when one is not a number."""
+    keep_small()
+    most = 0.0
+    for r in range(count):
+        unit = row_unit(block, r)
+        if not abs(values[r]) <= most * unit:
+            most = abs(values[r]) / unit
+        if not most < math.inf:
+            return math.inf
+    return most
+
+
+@jit
+def unknown_scale(block: Array, i: int) -> float:
+    """Scale of an unknown: of places, angles, their rates, energies, contact coordinates; own states have none, 1."""
+    n = Sizes(block).coordinates
+    work = Sizes(block).y_work
+    if i >= Sizes(block).y_alpha:
+        return 1.0
+    if i >= work:
+        return force_scale(block) * length_scale(block)
+    body = i % n // 3
+    unit = 1.0 if i % 3 == 2 else extent_of(block, body, body)
+    return unit * rate_scale(block) if i >= n else unit
