@@ -13,6 +13,7 @@ from ...tables.sizes import Sizes
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
+from ..constraints.rows import row_count
 from ..contacts.binding import deepest_overlap
 from ..contacts.complementarity import push_ratio
 from ..contacts.inside import blame, is_one_inside
