@@ -56,7 +56,6 @@ def extent_of(block: Array, i: int, j: int) -> float:
 @jit
 def _larger(block: Array, i: int, j: int, column: int) -> float:
     """The larger scale of two bodies, of which one may be the ground."""
-    keep_small()
     scales = Course(block).body_scales
     bodies = Sizes(block).bodies
     most = 0.0
@@ -155,6 +154,8 @@ def largest_off(block: Array, values: Array, count: int) -> float:
     keep_small()
     most = 0.0
     for r in range(count):
+        if values[r] == 0.0:
+            continue
         unit = row_unit(block, r)
         if not abs(values[r]) <= most * unit:
             most = abs(values[r]) / unit
@@ -172,6 +173,8 @@ def unknown_scale(block: Array, i: int) -> float:
         return 1.0
     if i >= work:
         return force_scale(block) * length_scale(block)
-    body = i % n // 3
-    unit = 1.0 if i % 3 == 2 else extent_of(block, body, body)
+    body = (i if i < n else i - n) // 3
+    if i % 3 == 2:  # n is a multiple of 3
+        return rate_scale(block) if i >= n else 1.0
+    unit = float(Course(block).body_scales[body, codes.BODY_EXTENT])
     return unit * rate_scale(block) if i >= n else unit

@@ -21,7 +21,7 @@ from mechanism_fmu.model import (
 from mechanism_fmu.simulation import Simulation
 
 _TURNS = 3
-_SPEEDS = [1e-3, 1.0, 10.0, 1e3]
+_SPEEDS = [1e-3, 0.1, 1.0, 10.0, 1e3]
 
 
 def crank_rocker(speed, gravity, driven=True):

@@ -33,6 +33,9 @@ from .trial import COUNT
 
 # Contacts that no longer touch.
 
+#: What has come off comes back faster than this, in scale, wherever in its hop a step may end but at the very top.
+_COMES_BACK = 0.1 * RESTS_BELOW
+
 
 @jit
 def release(block: Array, struck: int) -> None:
@@ -53,7 +56,7 @@ def release(block: Array, struck: int) -> None:
         if _may_have_come_off(table, c, struck):
             distance, rate = gap(block, at, c)
             unit = contact_unit(block, c)
-            if distance > GAP_NOISE * unit or (distance > 0.0 and rate < -RESTS_BELOW * contact_speed(block, c)):
+            if distance > GAP_NOISE * unit or (distance > 0.0 and rate < -_COMES_BACK * contact_speed(block, c)):
                 table.touching[c] = 0
                 let_loose(block, c)
 

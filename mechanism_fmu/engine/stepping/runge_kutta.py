@@ -133,7 +133,12 @@ def scaled_error(block: Array, i: int, h: float) -> float:
         if _ERROR[j] != 0.0:
             error += _ERROR[j] * k[j, i]
     error *= h
-    size = ABSOLUTE_FRACTION * unknown_scale(block, i) + max(abs(s.y_start[i]), abs(s.y_new[i]))
+    size = ABSOLUTE_FRACTION * unknown_scale(block, i)
+    n = Sizes(block).coordinates
+    long = h * rate_scale(block)
+    if n <= i < 2 * n and long > 1.0:  # in a long step, such a speed leads farther than what counts of places
+        size /= long
+    size += max(abs(s.y_start[i]), abs(s.y_new[i]))
     if Course(block).counters[codes.IMPLICIT] == 1:
         error = error_of_implicit(block, i)
         size += passed_on(block, i, h)
