@@ -11,7 +11,7 @@ from ...tables.motion import Exchange, LinearSystem, Pose, Rows
 from ...tables.parts import Bodies, Contacts, Joints, Options
 from ...tables.sizes import Sizes
 from ..compiler.by_kind import by_kind
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart, keep_small
 from ..profiles.curves import curve
 from ..profiles.nearest import is_searched
 from .entries import begin_row
@@ -207,7 +207,7 @@ def turning_rate(block: Array, y: Array, count: int) -> float:
     Both in the metric of the masses. For a pendulum it is its angular velocity, and 0 for rows that do not turn. gamma
     of drivers, which holds accelerations of theirs, is left out.
     """
-    keep_small()
+    keep_apart()
     table = Joints(block)
     total = 0.0
     for k in range(table.kind.shape[0]):

@@ -6,7 +6,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Rows, Stages
 from ...tables.sizes import Sizes
-from ..compiler.subset import jit, keep_small
+from ..compiler.subset import jit, keep_apart
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative
@@ -28,7 +28,7 @@ def closes_step(block: Array) -> bool:
 
     Not where Baumgarte's gains bring them back, where they have drifted far, or depend on each other.
     """
-    keep_small()
+    keep_apart()
     now = Course(block)
     drift = Stages(block).drift
     near = drift[0] < _NEAR * MOST_DRIFT and drift[1] < _NEAR * MOST_RATE_DRIFT * rate_scale(block)

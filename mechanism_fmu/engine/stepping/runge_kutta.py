@@ -72,6 +72,8 @@ def try_step(block: Array, start: float, size_: float) -> float:
     s.drift[1] = largest_off(block, Rows(block).residual_rate, count)
     if not implicit:
         write_dense(block, h)
+    if not s.drift[0] + s.drift[1] < math.inf:  # of what is no number, nothing would be left
+        return math.inf
     return _error_norm(block, h)
 
 

@@ -19,7 +19,6 @@ from ..profiles.curves import NEARLY, within_motions
 from ..profiles.nearest import least_fit
 from ..profiles.shape import passes_join
 from ..scales import rate_scale
-from ..vectors import dot
 from .reach import IN_LINE, is_out_of_reach
 from .runge_kutta import scaled_error, try_step
 from .singular import independence
@@ -122,8 +121,10 @@ def why_no_step(block: Array) -> int:
         at = place_bodies(block, s.y_start)
         if not least_fit(block, at) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
-    numbers = abs(dot(s.y_new, s.y_new, s.y_new.shape[0])) < math.inf
-    if numbers and independence(block) < IN_LINE:
+    total = 0.0
+    for k in range(s.y_new.shape[0]):
+        total += abs(s.y_new[k])
+    if total < math.inf and independence(block) < IN_LINE:  # what is no number depends on nothing
         return status.OUT_OF_REACH if is_out_of_reach(block) else status.SINGULAR
     return status.STEP_TOO_SMALL
 

@@ -38,7 +38,10 @@ _SHORT = (
 _SHORTEST = (
     *("starting", "elastic"),
     *(f"library.{name}" for name in ("_begin", "_begin_step", "_exchange", "_respond", "_read_output_rates")),
-    *(f"stepping.{name}" for name in ("rosenbrock", "passing", "singular", "reach")),
+    *(f"stepping.{name}" for name in ("rosenbrock", "passing", "singular", "reach", "closing", "meeting")),
+    *(f"stepping.{name}" for name in ("letting_go", "crossing", "stiffness")),
+    *("exchange", "outputs", "dynamics.oscillation", "outlines.held", "outlines.overlap", "outlines.crossing"),
+    *(f"contacts.{name}" for name in ("inside", "event_record", "friction_readings", "play_readings")),
     *(f"contacts.{name}" for name in ("binding", "complementarity", "doubts", "handover", "impact", "impact_laws")),
     *(f"contacts.{name}" for name in ("lemke", "participation", "proposal", "routh", "rubbing", "shared_forces")),
     *(f"contacts.{name}" for name in ("transition", "trial")),

@@ -244,8 +244,24 @@ def settings_parameters(alpha: float = 0.0, beta: float = 0.0) -> tuple[Paramete
         beta: default of the gain on the rows [1/s], 1 in Pennestri et al.
     """
     return (
-        Parameter("baumgarte_alpha", alpha, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
-        Parameter("baumgarte_beta", beta, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
+        Parameter(
+            "baumgarte_alpha",
+            alpha,
+            "Baumgarte gain on the rates of the constraints",
+            "1/s",
+            0.0,
+            1e4,
+            usual=(0.0, 20.0),
+        ),
+        Parameter(
+            "baumgarte_beta",
+            beta,
+            "Baumgarte gain on the constraints, squared in use",
+            "1/s",
+            0.0,
+            1e4,
+            usual=(0.0, 20.0),
+        ),
         Parameter("relative_tolerance", 1e-9, "Relative tolerance of the integration", "1", 1e-13, 1e-3),
         Parameter(
             "max_internal_steps",
