@@ -64,6 +64,10 @@ class Dual:
     def where_positive(self, positive, otherwise):
         return positive if self.a > 0 else otherwise
 
+    @property
+    def nominal(self):
+        return self.a
+
 
 def dual(x):
     return x if isinstance(x, Dual) else Dual(float(x))

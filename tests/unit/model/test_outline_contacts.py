@@ -99,7 +99,7 @@ BAD = {
     "friction": (lambda: contact(friction=-0.1), "friction = -0.1 must be finite and not negative"),
     "static friction": (lambda: contact(friction=0.3, friction_static=0.2), "friction_static = 0.2 is less"),
     "short": (
-        lambda: contact(outline_j=Outline.chain([(1.0, 0.0), (1.0, 1e-10)])),
+        lambda: contact(outline_j=Outline.chain([(1.0, 0.0), (1.0, 1e-10), (2.0, 1.0)])),
         "outline_j: element 0 is 1e-10 m long",
     ),
     "the wrong way": (

@@ -8,7 +8,7 @@
 /* What model_image.py takes for granted: the data are laid out as the compiler for the browser lays out structures. */
 _Static_assert(sizeof(void *) == 4 && sizeof(size_t) == 4 && _Alignof(double) == 8, "pointers, sizes and doubles");
 _Static_assert(sizeof(Variable) == 48 && sizeof(Again) == 20 && sizeof(Finding) == 8 && sizeof(Word) == 8, "structures");
-_Static_assert(sizeof(Joint) == 12 && sizeof(Rule) == 48 && sizeof(Contact) == 12 && sizeof(Model) == 144, "structures");
+_Static_assert(sizeof(Joint) == 12 && sizeof(Rule) == 48 && sizeof(Contact) == 12 && sizeof(Model) == 148, "structures");
 
 /* One operation of the formulas; a, b and c are places in `x`. The order is that of STEPS in model_image.py. */
 enum { ADD, SUBTRACT, MULTIPLY, DIVIDE, NEGATE, SIN, COS, TAN, SQRT, ATAN2, WHERE_POSITIVE };
