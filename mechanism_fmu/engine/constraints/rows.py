@@ -187,10 +187,8 @@ def stabilise(block: Array, y: Array, count: int) -> None:
         own = _GAIN * turning_rate(block, y, count)
         alpha += own
         beta += own
-    if alpha == 0.0 and beta == 0.0:
-        return
     out = Rows(block)
-    for r in range(count):
+    for r in range(count):  # without gains, too: of a row that is no number, no step comes
         out.gamma[r] -= 2.0 * alpha * out.residual_rate[r] + beta * beta * out.residual[r]
 
 

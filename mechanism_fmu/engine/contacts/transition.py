@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Pose, Rubs, Strikes
@@ -121,6 +123,8 @@ def transit(block: Array, guard: int, subject: int) -> int:
     if settled:
         outcome = _settle(block, guard, subject)
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - participants_energy(block)
+    if not abs(lost) < math.inf:  # speeds whose squares are no numbers
+        return status.STEP_TOO_SMALL
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome

@@ -70,18 +70,12 @@ LETS_GO = 2.0
 
 @jit
 def evaluate(block: Array) -> Pose:
-    """Forces and accelerations at y_end and TIME with the present inputs, which may move between events.
-
-    With gains on the drift of the rows, because an importer integrates them.
-    """
+    """Forces and accelerations at y_end and TIME with the present inputs, which may move between events."""
     keep_apart()
     now = Course(block)
     feed(block, Ports(block).inputs)
     set_time(block, now.clock[codes.TIME])
-    Exchange(block).integrates[0] = 1
-    at = derivative(block, now.y_end, now.dy_end)
-    Exchange(block).integrates[0] = 0
-    return at
+    return derivative(block, now.y_end, now.dy_end)
 
 
 @jit
