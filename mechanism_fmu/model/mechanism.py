@@ -30,8 +30,9 @@ class Settings:
 
     Attributes:
         relative_tolerance: of the step control [1], 1e-13..1e-3.
-        baumgarte_alpha: gain on the rates [1/s], in gamma - 2 alpha Phi' - beta^2 Phi.
-        baumgarte_beta: gain on the rows [1/s], in the same.
+        baumgarte_alpha: gain on the rates [1/s], in gamma - 2 alpha Phi' - beta^2 Phi; 0 by default, because rows are
+            projected after each step, whatever the mechanism's own time is. Pennestri et al. take 10.
+        baumgarte_beta: gain on the rows [1/s], in the same; they take 1.
         max_internal_steps: greatest number of internal steps of one communication step, 10..1e9; a step that needs more
             ends early, with a message.
         integration_method: integer [1]; 0 goes over from Dormand-Prince 5(4) to Rodas5P and back as stiffness asks, 1
@@ -39,8 +40,8 @@ class Settings:
     """
 
     relative_tolerance: Number = 1e-9
-    baumgarte_alpha: Number = 10.0
-    baumgarte_beta: Number = 1.0
+    baumgarte_alpha: Number = 0.0
+    baumgarte_beta: Number = 0.0
     max_internal_steps: Number = 200_000
     integration_method: Number = codes.AUTOMATIC
 

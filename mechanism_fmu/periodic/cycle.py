@@ -128,6 +128,10 @@ def find_cycle(
     x, iterations, residual = _newton(problem, cycle, x, report)
     first, second = passages(lambda: problem.simulation(x), end, 2)
     again = _again(problem, x, first, second)
+    if _AGAIN < again <= _NEAR_GRAZING:  # what may graze, and does no more, or does so only then
+        slopes(problem, cycle, x, first.sequence, 30.0 * again)
+    if again > _AGAIN:
+        raise CycleError(_another(problem, x, first, again))
     report("multipliers", 0.7)
     found = slopes(problem, cycle, x, first.sequence)
     multipliers, errors = _multipliers(found.matrix, found.errors)
@@ -228,24 +232,21 @@ def _not_found(problem: Problem, x: Array, size: float) -> str:
 
 
 def _again(problem: Problem, x: Array, first: Passage, second: Passage) -> float:
-    """How much the second cycle differs from the first, over the scales [1].
-
-    Raises:
-        CycleError: too much: what is not among the unknowns has changed, too.
-    """
+    """How much the second cycle differs from the first, over the scales [1]."""
     change = _compared(problem, second) - _compared(problem, first) - problem.advances
-    size = float(np.max(np.abs(change) / problem.scales(x)))
     late = abs(second.time - 2.0 * first.time) / first.time
-    if max(size, late) <= _AGAIN:
-        return size
+    return max(float(np.max(np.abs(change) / problem.scales(x))), late)
+
+
+def _another(problem: Problem, x: Array, first: Passage, size: float) -> str:
     others = [
         f"{name} by {value:.3g}" for name, value in _moved(first.values, problem.simulation(x).read(), True).items()
     ]
-    raise CycleError(
-        f"The unknowns return, but the next cycle is another one: it differs by {max(size, late):.2g}, where "
-        f"{_AGAIN:g} is allowed. Something that is not among the unknowns does not return. What has changed in the "
-        f"first cycle: {', '.join(others) or 'no coordinate'}. Name it as unknown (with --advance if it goes on by "
-        "itself), or take more --passages."
+    return (
+        f"The unknowns return, but the next cycle is another one: it differs by {size:.2g}, where {_AGAIN:g} is "
+        f"allowed. Something that is not among the unknowns does not return. What has changed in the first cycle: "
+        f"{', '.join(others) or 'no coordinate'}. Name it as unknown (with --advance if it goes on by itself), or take "
+        "more --passages."
     )
 
 

@@ -15,6 +15,8 @@ from .declare import Array
 
 #: Rows of every dense output: values and slopes at both ends of the step, a cubic.
 CUBIC_ROWS = 4
+#: And of a polynomial that has second derivatives there, too, as of coordinates.
+QUINTIC_ROWS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +67,7 @@ class Method:
     @property
     def dense_rows(self) -> int:
         """How many coefficients the dense output has for each unknown."""
-        return CUBIC_ROWS + len(self.dense)
+        return max(CUBIC_ROWS + len(self.dense), QUINTIC_ROWS if self.order >= QUINTIC_ROWS - 1 else 0)
 
     @property
     def error_exponent(self) -> int:

@@ -320,7 +320,7 @@ class Exchange(Table, rows="guards", prefix="exchange_"):
     indicator is lifted; gap and gap rate of each contact, unknowns and their derivatives at COMPLETED.
 
     Scratch: the indicators, the last of which is of the turns of bodies; how far the next piece of a driver's motion
-    is [s]; 1 where a completed step is to be followed by event mode.
+    is [s]; 1 where a completed step is to be followed by event mode; 1 while derivatives are an importer's.
     """
 
     leaves = integer("contacts", alone=True, name="exchange_leaves", holds=FLAG)
@@ -331,6 +331,7 @@ class Exchange(Table, rows="guards", prefix="exchange_"):
     indicator = real("indicators", alone=True, name="exchange_indicator", work=True)
     next_piece = real(1, alone=True, name="exchange_next_piece", work=True)
     wants_events = integer(1, alone=True, name="exchange_wants_events", work=True)
+    integrates = integer(1, alone=True, name="exchange_integrates", work=True)
 
 
 #: So many steps of difference quotients are tried (`engine.exchange.sensitivities`).

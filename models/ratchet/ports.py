@@ -66,7 +66,7 @@ PARAMETERS = (
     ),
     ports.angle_parameter("crank_angle_start", math.radians(77), "Crank angle at the start (phi)"),
     ports.angle_parameter("wheel_angle_start", math.radians(75), "Wheel angle at the start (psi)"),
-    *ports.settings_parameters(),
+    *ports.settings_parameters(alpha=10.0, beta=1.0),
     ports.flag_parameter(
         "guided",
         True,

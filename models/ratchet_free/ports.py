@@ -20,7 +20,7 @@ _NOT_HERE = (
     "guided",
     *("elastic_modulus", "pawl_width", "pawl_depth", "crank_width", "crank_depth"),
 )
-_STARTS = {"tooth_slope_angle": math.radians(95)}
+_STARTS = {"tooth_slope_angle": math.radians(95), "baumgarte_alpha": 0.0, "baumgarte_beta": 0.0}
 
 PARAMETERS = (
     *(replace(one, start=_STARTS.get(one.name, one.start)) for one in ratchet.PARAMETERS if one.name not in _NOT_HERE),

@@ -269,7 +269,8 @@ def advanced(simulation, until):
 @given(thrown())
 @CHEAP
 def test_energy_never_grows_and_the_ledger_adds_up(case):
-    simulation = simulation_of(case)
+    """Places are off by the tolerance in each step, and so is the work of a weight: a tenth of what is allowed here."""
+    simulation = simulation_of(case, tolerance=1e-10)
     before = simulation.read()
     lost = 0.0
     for k in range(1, 25):

@@ -1,6 +1,7 @@
 """Where rigid bodies with friction have no forces, or several, or motions that nothing determines: all are named."""
 
 import json
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,12 +11,14 @@ from benchmarks.world.cases.painleve_rod import FRICTION, GRAVITY, HALF, MASS, S
 from mechanism_fmu import codes
 from mechanism_fmu.model import (
     GROUND,
+    Body,
     Brake,
     Mechanism,
     Output,
     PointLineContact,
     Revolute,
     Torque,
+    bar,
     rigid_body,
 )
 from mechanism_fmu.simulation import Simulation, SimulationError, friction_solutions
@@ -123,6 +126,33 @@ def test_several_solutions_are_an_event() -> None:
     mechanism = rod(line["theta"], line["thetadot"], line["sigma"], line["mu"])
     assert len(friction_solutions(mechanism)) == 2
     assert guards(Simulation(mechanism)) == ["floor.several"]
+
+
+def test_two_motions_of_a_chain_of_bars_are_an_event() -> None:
+    """Where a pin between three bars comes to rest, it may stick, or slip on: by all modes, both agree."""
+    bodies: list[Body] = []
+    joints = []
+    start = (0.0, 0.0)
+    for k, (angle, radius) in enumerate([(-0.5 * math.pi, 0.4), (0.0, 0.4), (0.5 * math.pi, 0.5)]):
+        end = (start[0] + math.cos(angle), start[1] + math.sin(angle))
+        bodies.append(bar(f"bar{k}", start, end, mass=1.0))
+        before = bodies[k - 1].b if k > 0 else GROUND.at(0.0, 0.0)
+        joints.append(Revolute(f"pin{k}", bodies[k].a, before, friction_radius=radius))
+        start = end
+    chain = Mechanism(tuple(bodies), tuple(joints), gravity=(0.0, -GRAVITY))
+    simulation = Simulation(chain)
+    simulation.advance(0.3)
+    (time,) = (event.time for event in simulation.events_in_step() if event.guard.endswith(".several"))
+
+    there = Simulation(chain)
+    there.begin_step()
+    while there.time < time:
+        there.go_on(0.3, codes.STOP_AT_EVENT)
+    y = there.field("y_end")[:18].reshape(6, 3)
+    bodies = [replace(body, start=tuple(y[k]), start_rate=tuple(y[3 + k])) for k, body in enumerate(bodies)]
+    one, other = friction_solutions(replace(chain, bodies=tuple(bodies)))
+    assert {one.modes["pin2"], other.modes["pin2"]} == {"sticks", "slips forwards"}
+    assert abs(one.accelerations["bar2"][2] - other.accelerations["bar2"][2]) > 0.5
 
 
 @pytest.mark.parametrize(

@@ -69,7 +69,7 @@ def test_the_engines_own_method():
     assert METHOD.dense.sum(axis=1) == pytest.approx([0.0], abs=1e-13)
     assert (METHOD.stages, METHOD.last, METHOD.interior, METHOD.error_exponent) == (7, 6, (1, 2, 3, 4), 5)
     assert Stages.fields["derivatives"].shape[0] == Stages.fields["independence"].shape[0] == METHOD.stages
-    assert Course.fields["dense"].shape[0] == Stages.fields["new_dense"].shape[0] == METHOD.dense_rows == 5
+    assert Course.fields["dense"].shape[0] == Stages.fields["new_dense"].shape[0] == METHOD.dense_rows == 6
 
 
 @pytest.mark.parametrize(

@@ -53,13 +53,13 @@ CAUSES = {"spring": {"joints": (HINGE,), "forces": (SPRING,)}, "driver": {"joint
 METHODS = {"Dormand-Prince": codes.EXPLICIT, "Rodas5P": codes.IMPLICIT_METHOD}
 
 
-def swing(tolerance=1e-9, alpha=10.0, cause="spring", method=codes.EXPLICIT):
+def swing(tolerance=1e-9, alpha=10.0, beta=1.0, cause="spring", method=codes.EXPLICIT):
     x, y, angle = exact(0.0)[:3]
     return Mechanism(
         bodies=(Body("bob", MASS, INERTIA, (x, y, angle)),),
         **CAUSES[cause],
         outputs=tuple(Output(name, f"bob.{name}", "") for name in NAMES),
-        settings=Settings(tolerance, baumgarte_alpha=alpha, integration_method=method),
+        settings=Settings(tolerance, baumgarte_alpha=alpha, baumgarte_beta=beta, integration_method=method),
     )
 
 
@@ -86,19 +86,20 @@ def fixed_steps(block, y, start, step, count, fractions, inside):
         interpolate(s.new_dense, fractions[f], inside[f])
 
 
-def errors_of_steps(cause, start, step, count, method=codes.EXPLICIT):
+def errors_of_steps(cause, start, step, count, method=codes.EXPLICIT, beta=1.0):
     """Largest error at the end of `count` steps from the exact state at `start`, and inside the last one.
 
-    Without Baumgarte's damping, whose own time scale would hide the order until the steps are much smaller.
+    Without Baumgarte's damping, whose own time scale would hide the order until the steps are much smaller. And inside
+    the last one of the coordinates alone.
     """
     y = np.append(exact(start), [0.0, 0.0])  # no work, no loss
     inside = np.zeros((len(FRACTIONS), len(y)))
-    block = pack(compile_mechanism(swing(alpha=0.0, cause=cause, method=method)))
+    block = pack(compile_mechanism(swing(alpha=0.0, beta=beta, cause=cause, method=method)))
     Course(block).counters[codes.IMPLICIT] = method == codes.IMPLICIT_METHOD
     fixed_steps(block, y, start, step, count, FRACTIONS, inside)
     times = start + step * (count - 1 + FRACTIONS)
     between = [row[:6] - exact(time) for row, time in zip(inside, times, strict=True)]
-    return np.abs(y[:6] - exact(start + step * count)).max(), np.abs(between).max()
+    return np.abs(y[:6] - exact(start + step * count)).max(), np.abs(between).max(), np.abs(between)[:, :3].max()
 
 
 def orders(errors):
@@ -134,6 +135,14 @@ def test_order_of_the_dense_output_is_four(start, cause, method):
         np.testing.assert_allclose(found[:2], METHOD.dense_order + 1, atol=0.1)
     else:  # terms of the next order are still seen, one way or the other
         assert found.mean() == pytest.approx(METHOD.dense_order + 1, abs=0.2)
+
+
+@pytest.mark.parametrize("cause", CAUSES)
+@pytest.mark.parametrize("start", [0.0, 0.5, 1.0, 1.5])
+def test_order_of_coordinates_between_steps_is_five_without_gains(start, cause):
+    """The quintic through places, rates and accelerations: inside a single step the error is of order 6."""
+    errors = [errors_of_steps(cause, start, 0.08 / part, 1, beta=0.0)[2] for part in (1, 2, 4)]
+    assert orders(errors).mean() == pytest.approx(6.0, abs=0.3)
 
 
 #: Above the first range of tolerances every step drifts by more than `acceleration.MOST_DRIFT` and is put back on the

@@ -60,5 +60,5 @@ CASE = Case(
     ),
     run=run,
     model=pendulum,
-    within=1e-10,
+    within=3e-10,
 )

@@ -236,6 +236,15 @@ def agrees(block: Array, at: Pose) -> bool:
 
 
 @jit
+def leaves(block: Array, at: Pose, contact: int) -> bool:
+    """Whether a candidate, by the last trial, is open and accelerates away, by more than rounding."""
+    if Contacts(block).mode[contact] == codes.CLOSED:
+        return False
+    contact_row(block, at, contact, spare_row(block))
+    return _comes_off(block, contact)
+
+
+@jit
 def _turn_over(block: Array, rub: int) -> None:
     """What slips sticks instead; what sticks slips to where it is pushed, for good where it held more while stuck."""
     keep_small()

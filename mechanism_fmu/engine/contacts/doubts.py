@@ -16,7 +16,7 @@ from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, holding
 from ..constraints.rows import row_count
 from ..vectors import copy, largest
-from .complementarity import agrees, combination_count, combine_modes, push_tolerance
+from .complementarity import agrees, combination_count, combine_modes, leaves, push_tolerance
 from .event_record import WITHIN, keep_event, note_mode
 from .shared_forces import undetermined
 from .trial import COUNT
@@ -53,7 +53,8 @@ def record_doubts(block: Array, at: Pose, compares: bool) -> None:
 def _other_choice(block: Array, at: Pose, compares: bool) -> int:
     """What may have another mode, with other accelerations that agree, too; `codes.NONE` if there is nothing.
 
-    A candidate that slips may be closed as well as open, by Painlevé's paradox; what is at rest may stick, or slip.
+    A candidate that slips may be closed as well as open, by Painlevé's paradox, where it then leaves by more than
+    rounding: at the end of all forces, none does. What is at rest may stick, or slip.
     Rows that depend on each other may be given up without another acceleration. Modes are as before, but what the last
     trial has left is lost.
     """
@@ -67,7 +68,7 @@ def _other_choice(block: Array, at: Pose, compares: bool) -> int:
         if rub.free[c] != codes.BOUND or rub.slip[c] == codes.APART or not coefficient(block, c) > 0.0:
             continue
         mode[c] = codes.CLOSED - mode[c]
-        differs = agrees(block, at) and _differ(block, chosen)
+        differs = agrees(block, at) and (mode[c] == codes.CLOSED or leaves(block, at, c)) and _differ(block, chosen)
         mode[c] = codes.CLOSED - mode[c]
         if differs:
             return int(c)

@@ -64,6 +64,7 @@ def exchange(block: Array, what: int, time: float) -> int:
     says whether event mode is to follow.
     """
     keep_small()
+    Exchange(block).integrates[0] = 1  # the importer does: from here on, drift of rows dies away in their own time
     set_clock(block, time)
     if what == codes.EXCHANGE_RATES:
         evaluate(block)

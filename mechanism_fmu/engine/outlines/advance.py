@@ -151,7 +151,7 @@ def _turn(block: Array, body: int) -> float:
 @jit
 def _slope(block: Array, unknown: int) -> float:
     """A bound of how fast an unknown changes within the step [per step]."""
-    keep_small()
+    keep_apart()
     dense = Stages(block).new_dense
     found: float = abs(dense[1, unknown]) + abs(dense[2, unknown]) + abs(dense[3, unknown])
     for row in range(4, _ROWS):

@@ -10,7 +10,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
 from ...tables.motion import Rows, Rubs, Stages
-from ...tables.parts import Contacts, Options
+from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ...tolerances import ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_small
@@ -21,9 +21,10 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
 from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
 from ..contacts.guards import can_open
-from ..dynamics.acceleration import derivative
+from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
+from ..vectors import copy
 from .looks import falling
 from .runge_kutta import try_step
 
@@ -54,10 +55,26 @@ _OPENS = -1.0
 @jit
 def _spare_at(block: Array, guard: int, subject: int, fraction: float) -> float:
     """A contact's force, or what friction could hold more, over its tolerance at `fraction` of the step."""
-    keep_small()
     s = Stages(block)
     interpolate(s.new_dense, fraction, s.y_at)
+    return _spare(block, guard, subject, fraction)
+
+
+@jit
+def _spare_behind(block: Array, guard: int, subject: int) -> float:
+    """As `_spare_at`, at the end of the true step last tried."""
+    s = Stages(block)
+    copy(s.y_new, s.y_at)
+    return _spare(block, guard, subject, 1.0)
+
+
+@jit
+def _spare(block: Array, guard: int, subject: int, fraction: float) -> float:
+    """As `_spare_at`, at y_at, where the rows are closed first: what they are off would count as a force."""
+    keep_small()
+    s = Stages(block)
     set_time(block, s.tried[0] + fraction * s.tried[1])
+    close_rows(block, s.y_at, 0.0, 0.0)
     derivative(block, s.y_at, s.dy_at)
     if guard == codes.GUARD_PUSH:
         return push_ratio(block, subject, push_tolerance(block, row_count(block)))
@@ -166,7 +183,7 @@ def refine_push(block: Array, contact: int, step_size: float) -> float:
     size = step_size
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, size)
-        value = push_ratio(block, contact, push_tolerance(block, row_count(block)))
+        value = _spare_behind(block, codes.GUARD_PUSH, contact)
         if not _OPENS < value < pushed:
             return size
         move = (value - _LETS_GO) * (size - before) / (pushed - value)
@@ -207,7 +224,7 @@ def refine_slip(block: Array, rub: int, step_size: float) -> float:
 def refine_hold(block: Array, rub: int, step_size: float) -> float:
     """The step size at which the true step ends where friction of what sticks has none left; it is the last one tried.
 
-    By secants. The dense output of a long step places it worse: there, what mends the drift of rows makes noise.
+    By secants. The dense output of a long step places it worse.
     """
     keep_small()
     s = Stages(block)
@@ -218,10 +235,10 @@ def refine_hold(block: Array, rub: int, step_size: float) -> float:
         return size
     before = (1.0 - _MISPLACED) * step_size
     try_step(block, start, before)
-    held = _hold_behind(block, rub)
+    held = _spare_behind(block, codes.GUARD_SLIP, rub)
     try_step(block, start, size)
     for _ in range(_NEWTON_STEPS):
-        value = _hold_behind(block, rub)
+        value = _spare_behind(block, codes.GUARD_SLIP, rub)
         if not value < held:
             return size
         move = value * (size - before) / (held - value)
@@ -235,20 +252,3 @@ def refine_hold(block: Array, rub: int, step_size: float) -> float:
         try_step(block, start, size)
     try_step(block, start, step_size)
     return step_size
-
-
-@jit
-def _hold_behind(block: Array, rub: int) -> float:
-    """What friction of what sticks could hold more, over its tolerance, at the end of the step last tried.
-
-    Without Baumgarte's gains: drift there, which is projected behind the step, would count as a force.
-    """
-    keep_small()
-    s = Stages(block)
-    settings = Options(block).settings
-    alpha, beta = settings[codes.BAUMGARTE_ALPHA], settings[codes.BAUMGARTE_BETA]
-    settings[codes.BAUMGARTE_ALPHA] = settings[codes.BAUMGARTE_BETA] = 0.0
-    set_time(block, s.tried[0] + s.tried[1])
-    derivative(block, s.y_new, s.dy_at)
-    settings[codes.BAUMGARTE_ALPHA], settings[codes.BAUMGARTE_BETA] = alpha, beta
-    return hold_ratio(block, rub, push_tolerance(block, row_count(block)))

@@ -23,7 +23,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.rows import row_count
-from ..dynamics.acceleration import LEAST_DRIFT, close_rows, derivative
+from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..vectors import clear, copy, largest
@@ -50,6 +50,8 @@ _BACK = 0.5
 _LEAST_SINE = 1.5e-5
 #: It is never read on by less than to where the sine is this: nearer points would carry rounding on.
 _SPACED_BY = 3e-3
+#: And this, where drivers lead all that moves: rounding of the rows, over the square of the sine, is all that there is.
+_LED_BY = 1e-3
 #: Points are so many times as far apart as the dependence is away, and the polynomial is read on by 2/3 of a spacing:
 #: what rounding has left on them counts 40 times. By two spacings of that distance itself, it would 3000 times.
 _SPACING = 3.0
@@ -112,11 +114,11 @@ def pass_over(block: Array, start: float, apart: float, singular: bool) -> tuple
     sine = math.sqrt(Course(block).independence_end[0])
     if not (sine > _LEAST_SINE and apart > smallest_step(start)):
         return REFUSED, 0.0
-    beyond = apart * max(1.0, _SPACED_BY / sine)
+    beyond = apart * _spread(block, sine)
     spacing = _SPACING * beyond
     size = within_motions(block, start, within_ramp(block, start, apart + beyond))
     size = (start + size) - start
-    if not (size > apart and _look_back(block, start, spacing, sine < _CLOSED_ABOVE)):
+    if not (size > apart and _look_back(block, start, spacing, _is_off(block, sine))):
         return REFUSED, 0.0
     nearest = apart * _LEAST_SINE / sine
     most = 1.0
@@ -158,8 +160,8 @@ def read_passed(block: Array) -> None:
     set_time(block, start)
     derivative(block, s.y_start, s.derivatives[0])
     sine = math.sqrt(independence(block))
-    spacing = _SPACING * (now.clock[codes.PASSED_AT] - start) * max(1.0, _SPACED_BY / sine)
-    _look_back(block, start, spacing, sine < _CLOSED_ABOVE)
+    spacing = _SPACING * (now.clock[codes.PASSED_AT] - start) * _spread(block, sine)
+    _look_back(block, start, spacing, _is_off(block, sine))
     _hermite(block, (now.clock[codes.TIME] - start) / spacing, spacing, BEHIND, now.y_end)
 
 
@@ -168,6 +170,25 @@ def _nearer(apart: float, nearest: float) -> tuple[int, float]:
     if apart > nearest:
         return NEARER, apart
     return REFUSED, 0.0
+
+
+@jit
+def _is_off(block: Array, sine: float) -> bool:
+    """Whether rows are left off so near, because closing them would lead along the other branch."""
+    return _is_free(block) and sine < _CLOSED_ABOVE
+
+
+@jit
+def _is_free(block: Array) -> bool:
+    """Whether anything is free to move: where drivers lead all of it, closing the rows says all about a point."""
+    free: bool = Course(block).counters[codes.RANK] < Sizes(block).coordinates
+    return free
+
+
+@jit
+def _spread(block: Array, sine: float) -> float:
+    """By how much points are farther apart than in proportion to the distance from the dependence."""
+    return max(1.0, (_SPACED_BY if _is_free(block) else _LED_BY) / sine)
 
 
 @jit
@@ -188,7 +209,7 @@ def _look_back(block: Array, start: float, spacing: float, near: bool) -> bool:
             try_step(block, time + short, -short)
         set_time(block, time)
         if not near or part >= _PARTS:
-            close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
+            close_rows(block, s.y_new, 0.0, 0.0)
         derivative(block, s.y_new, s.derivatives[_LAST])
         is_same = is_same and LinearSystem(block).rank[0] == Course(block).counters[codes.RANK]
         if part % _PARTS == 0:
@@ -242,10 +263,14 @@ def _distance(block: Array, y: Array, other: Array) -> float:
     keep_small()
     n = Sizes(block).coordinates
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
-    most: float = max(_by_mass(block, y[:n], other[:n]), _by_mass(block, y[n:], other[n:])) / relative
+    most: float = max(_by_mass(block, y[:n], other[:n]), _by_mass(block, y[n:], other[n:]))
+    least = _square(block, y[n:])
     for i in range(2 * n, Sizes(block).y_wear):
-        most = max(most, abs(y[i] - other[i]) / (relative * (ABSOLUTE_FRACTION + abs(y[i]))))
-    return most
+        if i >= Sizes(block).y_alpha:
+            least = ABSOLUTE_FRACTION
+        most = max(most, abs(y[i] - other[i]) / (least + abs(y[i])))
+    error: float = most / relative
+    return error
 
 
 @jit
@@ -253,13 +278,22 @@ def _by_mass(block: Array, values: Array, others: Array) -> float:
     """A difference of positions or rates over their size, in the metric of the masses."""
     keep_small()
     inverse = Bodies(block).inverse_mass
-    size = difference = 0.0
+    difference = 0.0
     for k in range(Sizes(block).coordinates):
-        size += values[k] * values[k] / inverse[k]
         difference += (values[k] - others[k]) * (values[k] - others[k]) / inverse[k]
     if difference == 0.0:
         return 0.0
-    return math.sqrt(difference / size)
+    return math.sqrt(difference / _square(block, values))
+
+
+@jit
+def _square(block: Array, values: Array) -> float:
+    """The square of positions or rates in the metric of the masses: of rates, twice the kinetic energy [J]."""
+    inverse = Bodies(block).inverse_mass
+    total = 0.0
+    for k in range(Sizes(block).coordinates):
+        total += values[k] * values[k] / inverse[k]
+    return total
 
 
 @jit
@@ -269,7 +303,7 @@ def _put_right(block: Array, start: float, size: float) -> float:
     s = Stages(block)
     copy(s.y_new, s.y_at)
     set_time(block, start + size)
-    close_rows(block, s.y_new, LEAST_DRIFT, LEAST_DRIFT)
+    close_rows(block, s.y_new, 0.0, 0.0)
     derivative(block, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
     s.drift[0] = largest(Rows(block).residual, count)

@@ -154,7 +154,7 @@ def initial_step_size(block: Array) -> float:
     size_y = math.sqrt(size_y / n)
     size_dy = math.sqrt(size_dy / n)
     first = 1e-6
-    if size_y > 1e-5 and size_dy > 1e-5:
+    if size_y > 1.0 and size_dy > 1e-5:  # what is no larger than its tolerance says nothing of how fast it may change
         first = 0.01 * size_y / size_dy
     _euler(now.y_end, now.dy_end, first, s.y_stage)
     set_time(block, now.clock[codes.STEP_END] + first)

@@ -22,6 +22,7 @@ from ..interpolation import interpolate
 from ..profiles.nearest import least_fit
 from ..profiles.overlap import bridged
 from ..vectors import clear, copy
+from .closing import closes_step
 from .crossing import first_crossing, refine_crossing
 from .events import comes_down_beside, first_event, refine
 from .letting_go import refine_hold, refine_push, refine_slip
@@ -253,7 +254,8 @@ def _mend_and_check(block: Array) -> int:
     set_time(block, now.clock[codes.STEP_END])
     drift = Stages(block).drift
     drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT)
-    if (drifted or Sizes(block).alphas > 0) and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+    mends = not closes_step(block) and (drifted or Sizes(block).alphas > 0)
+    if mends and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
         derivative(block, now.y_end, now.dy_end)
     if Sizes(block).outlines > 0:
         contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))

@@ -18,8 +18,9 @@ from ..elementary import power
 from ..profiles.curves import quarter_wave
 from ..profiles.nearest import least_fit
 from ..profiles.shape import passes_join
-from .reach import is_out_of_reach
+from .reach import IN_LINE, is_out_of_reach
 from .runge_kutta import scaled_error, try_step
+from .singular import independence
 from .stiffness import is_beyond_explicit, look_stiff
 
 # How far a step may go, however accurate it is: to where slopes of inputs end, and not over what a driver does.
@@ -180,8 +181,11 @@ def why_no_step(block: Array) -> int:
         at = place_bodies(block, s.y_start)
         if not least_fit(block, at) > _FITS_BARELY:
             return status.NO_CONTACT_POINT
-    if is_out_of_reach(block):
-        return status.OUT_OF_REACH
+    total = 0.0
+    for k in range(s.y_new.shape[0]):
+        total += abs(s.y_new[k])
+    if total < math.inf and independence(block) < IN_LINE:  # what is no number depends on nothing
+        return status.OUT_OF_REACH if is_out_of_reach(block) else status.SINGULAR
     return status.STEP_TOO_SMALL
 
 

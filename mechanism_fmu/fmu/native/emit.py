@@ -36,9 +36,13 @@ _SHORT = (
 
 #: What runs at events, at the start and on few models only: as short as can be.
 _SHORTEST = (
-    *("starting", "elastic"),
-    *(f"library.{name}" for name in ("_begin", "_begin_step", "_exchange", "_respond", "_read_output_rates")),
-    *(f"stepping.{name}" for name in ("rosenbrock", "passing", "singular", "reach")),
+    *("starting", "elastic", "library", "dynamics.sliding"),
+    *(f"stepping.{name}" for name in ("rosenbrock", "passing", "singular", "reach", "closing", "meeting")),
+    *(f"stepping.{name}" for name in ("letting_go", "crossing", "stiffness")),
+    *("exchange", "outputs", "outlines", "constraints.wear", "profiles.overlap", "profiles.touch"),
+    *(f"dynamics.{name}" for name in ("oscillation", "bushing", "torsional", "own_states", "laws", "thresholds")),
+    *(f"stepping.{name}" for name in ("step", "step_size", "stepper")),
+    *(f"contacts.{name}" for name in ("inside", "event_record", "friction_readings", "play_readings")),
     *(f"contacts.{name}" for name in ("binding", "complementarity", "doubts", "handover", "impact", "impact_laws")),
     *(f"contacts.{name}" for name in ("lemke", "participation", "proposal", "routh", "rubbing", "shared_forces")),
     *(f"contacts.{name}" for name in ("transition", "trial")),

@@ -1,7 +1,7 @@
 """The continuous states of Model Exchange, and their derivatives, as variables of an FMU.
 
 They are the engine's unknowns y = (q, qd, work, loss, alpha, own, wear), in its order. Coordinates are redundant: what
-joints hold is kept by the accelerations, with Baumgarte's stabilisation, and put right in events.
+joints hold is kept by the accelerations, with gains on its drift in the mechanism's own time, and put right in events.
 """
 
 from __future__ import annotations

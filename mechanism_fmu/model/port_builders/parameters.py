@@ -236,11 +236,32 @@ def joint_friction_parameter(hinges: str = "all hinges") -> Parameter:
     return Parameter("joint_friction_radius", 0.0, description, "m", 0.0, 1.0, usual=(0.0, 2e-3))
 
 
-def settings_parameters() -> tuple[Parameter, ...]:
-    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps, method."""
+def settings_parameters(alpha: float = 0.0, beta: float = 0.0) -> tuple[Parameter, ...]:
+    """How the engine integrates, with the names of `Settings`: Baumgarte gains [1/s], tolerance, most steps, method.
+
+    Args:
+        alpha: default of the gain on the rates [1/s], 10 in Pennestri et al.
+        beta: default of the gain on the rows [1/s], 1 in Pennestri et al.
+    """
     return (
-        Parameter("baumgarte_alpha", 10.0, "Baumgarte gain on the rates of the constraints", "1/s", 0.0, 1e4),
-        Parameter("baumgarte_beta", 1.0, "Baumgarte gain on the constraints, squared in use", "1/s", 0.0, 1e4),
+        Parameter(
+            "baumgarte_alpha",
+            alpha,
+            "Baumgarte gain on the rates of the constraints",
+            "1/s",
+            0.0,
+            1e4,
+            usual=(0.0, 20.0),
+        ),
+        Parameter(
+            "baumgarte_beta",
+            beta,
+            "Baumgarte gain on the constraints, squared in use",
+            "1/s",
+            0.0,
+            1e4,
+            usual=(0.0, 20.0),
+        ),
         Parameter("relative_tolerance", 1e-9, "Relative tolerance of the integration", "1", 1e-13, 1e-3),
         Parameter(
             "max_internal_steps",

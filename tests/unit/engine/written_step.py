@@ -32,8 +32,8 @@ def write(block: Block, motions: dict[int, Polynomial]) -> None:
     dense[:] = 0.0
     field_of(block, "tried")[:] = 0.0, 1.0
     for k, motion in motions.items():
-        dense[:, k] = coefficients(motion)
-        dense[:, coordinates + k] = coefficients(motion.deriv())
+        dense[:5, k] = coefficients(motion)
+        dense[:5, coordinates + k] = coefficients(motion.deriv())
 
 
 def coefficients(x: Polynomial) -> list[float]:
