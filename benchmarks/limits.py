@@ -32,6 +32,8 @@ STEPS_EACH = 200
 _FACTOR, _AT_LIMIT = 1e5, 0.15
 #: So many of a design's parameters are changed, at most.
 _CHANGED = 4
+#: An acceleration below this part of the largest one is its rounding: its sign counts as no swing.
+_ROUNDING = 1e-12
 _SETTINGS = tuple(Settings.__dataclass_fields__)
 
 
@@ -131,20 +133,25 @@ def _simulation(name: str, changed: dict[str, float]) -> Simulation:
     return Simulation(model.build(model.values(**changed)))
 
 
+def _senses(accelerations: np.ndarray) -> np.ndarray:
+    """Signs of accelerations, 0 for what is rounding of the largest."""
+    return np.sign(np.where(np.abs(accelerations) > _ROUNDING * np.abs(accelerations).max(), accelerations, 0.0))
+
+
 def _reasons(simulation: Simulation, steps: int) -> float:
     """Turns, swings and events of the first so many steps."""
     count = 3 * simulation.field("body_rank").size
     rates = slice(count, 2 * count)
     y = simulation.field("y_end")
     turned, changes = np.zeros(count), np.zeros(count)
-    before, sense = y[:count].copy(), np.sign(simulation.field("dy_end")[rates])
+    before, sense = y[:count].copy(), _senses(simulation.field("dy_end")[rates])
     simulation.begin_step()
     try:
         for _ in range(steps):
             simulation.go_on(MOTION, codes.STOP_AT_STEP)
             turned += np.abs(y[:count] - before)
             before = y[:count].copy()
-            now = np.sign(simulation.field("dy_end")[rates])
+            now = _senses(simulation.field("dy_end")[rates])
             changes += now * sense < 0
             sense = now
     except SimulationError:

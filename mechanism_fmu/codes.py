@@ -321,6 +321,6 @@ SCALE_PRESENT = 3  # the rate by what acts since the last event
 SCALES = 4
 # and of those of each body
 BODY_LENGTH = 0  # its own
-BODY_EXTENT = 1  # the largest of what it was joined to at its last event
-BODY_PACE = 2  # the present rate of what it was joined to then
+ISLAND_LENGTH = 1  # the largest of what it was joined to at its last event
+ISLAND_RATE = 2  # the present rate of what it was joined to then
 BODY_SCALES = 3

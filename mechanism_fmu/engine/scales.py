@@ -40,16 +40,16 @@ def present_rate(block: Array) -> float:
 
 
 @jit
-def pace_of(block: Array, i: int, j: int) -> float:
+def pair_rate(block: Array, i: int, j: int) -> float:
     """One over the time in which two bodies, and what they are joined to, move by what has acted since their event."""
-    rate = _larger(block, i, j, codes.BODY_PACE)
+    rate = _larger(block, i, j, codes.ISLAND_RATE)
     return rate if rate > 0.0 else rate_scale(block)
 
 
 @jit
-def extent_of(block: Array, i: int, j: int) -> float:
+def pair_length(block: Array, i: int, j: int) -> float:
     """Length of two bodies, and of what they were joined to at their last event, in units of `dynamics.scaling`."""
-    length = _larger(block, i, j, codes.BODY_EXTENT)
+    length = _larger(block, i, j, codes.ISLAND_LENGTH)
     return length if length > 0.0 else length_scale(block)
 
 
@@ -94,13 +94,13 @@ def contact_unit(block: Array, contact: int) -> float:
         return 1.0
     if table.kind[contact] == codes.OUTLINE:
         return length_scale(block)
-    return extent_of(block, table.body_i[contact], table.body_j[contact])
+    return pair_length(block, table.body_i[contact], table.body_j[contact])
 
 
 @jit
 def contact_speed(block: Array, contact: int) -> float:
     """Scale of the rate at which the gap of a contact changes."""
-    return contact_unit(block, contact) * pace_of(
+    return contact_unit(block, contact) * pair_rate(
         block, Contacts(block).body_i[contact], Contacts(block).body_j[contact]
     )
 
@@ -109,7 +109,7 @@ def contact_speed(block: Array, contact: int) -> float:
 def slip_scale(block: Array, rub: int) -> float:
     """Scale of the speed at which something with friction slips."""
     i, j = bodies_of(block, rub)
-    return friction_unit(block, rub) * pace_of(block, i, j)
+    return friction_unit(block, rub) * pair_rate(block, i, j)
 
 
 @jit
@@ -119,7 +119,7 @@ def friction_unit(block: Array, rub: int) -> float:
     joints = Sizes(block).joints
     if rub < contacts or (rub < contacts + joints and Joints(block).kind[rub - contacts] != _REVOLUTE):
         i, j = bodies_of(block, rub)
-        return extent_of(block, i, j)
+        return pair_length(block, i, j)
     return 1.0
 
 
@@ -132,7 +132,7 @@ def row_unit(block: Array, row: int) -> float:
         first = 3 * Rows(block).body[row, end]
         across = max(across, abs(entry[first]), abs(entry[first + 1]))
         along = max(along, abs(entry[first + 2]))
-    return max(along, across * extent_of(block, Rows(block).body[row, 0], Rows(block).body[row, 1]))
+    return max(along, across * pair_length(block, Rows(block).body[row, 0], Rows(block).body[row, 1]))
 
 
 @jit
@@ -165,16 +165,18 @@ def largest_off(block: Array, values: Array, count: int) -> float:
 
 
 @jit
-def unknown_scale(block: Array, i: int) -> float:
-    """Scale of an unknown: of places, angles, their rates, energies, contact coordinates; own states have none, 1."""
+def unknown_scale(block: Array, i: int, rate: float) -> float:
+    """Scale of an unknown, where the mechanism moves at a rate; of own states, which have none, 1."""
     n = Sizes(block).coordinates
     work = Sizes(block).y_work
     if i >= Sizes(block).y_alpha:
         return 1.0
     if i >= work:
-        return force_scale(block) * length_scale(block)
+        length = length_scale(block)
+        mass: float = Course(block).scales[codes.SCALE_MASS]
+        return mass * length * rate * rate * length
     body = (i if i < n else i - n) // 3
     if i % 3 == 2:  # n is a multiple of 3
-        return rate_scale(block) if i >= n else 1.0
-    unit = float(Course(block).body_scales[body, codes.BODY_EXTENT])
-    return unit * rate_scale(block) if i >= n else unit
+        return rate if i >= n else 1.0
+    unit = float(Course(block).body_scales[body, codes.ISLAND_LENGTH])
+    return unit * rate if i >= n else unit

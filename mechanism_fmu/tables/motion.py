@@ -147,7 +147,8 @@ class LinearSystem(Table):
     `level` is the rounding of the multipliers (`engine.dynamics.rounding`).
 
     `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
-    share of its squared length that is left after projection. A row of `scaled` has three entries of each of the
+    share of its squared length that is left after projection. What has less than `least_independence` counts as
+    dependent; 0 for what is so but for rounding. A row of `scaled` has three entries of each of the
     bodies in `scaled_body`.
 
     `kept` is 1 where the next factorisation is to be kept, 2 once it stands: while nothing but forces changes.
@@ -206,6 +207,7 @@ class LinearSystem(Table):
     level = real(1, work=True)
     rank = integer(1, work=True)
     independence = real(1, work=True)
+    least_independence = real(1, work=True)
 
 
 class Loads(Table):
@@ -214,7 +216,7 @@ class Loads(Table):
     `force` acts, and `size` is the sum of its terms' magnitudes; `applied` is its part without friction; `torque` is
     that of each force element on its body, `rubbing` that of the friction in each joint (a force in sliders); the
     accelerations that the forces alone would give; assembly weights; the multipliers of the last round of the friction
-    iteration; one over the time in which each body moves at an event, and how far all reach, in scale.
+    iteration; rate and length of each body at an event, or of those that it is joined to, in scale (see `scaling`).
     """
 
     force = real("columns", work=True)
@@ -225,22 +227,23 @@ class Loads(Table):
     last_multiplier = real("rows", work=True)
     free_acceleration = real("columns", work=True)
     weight = real("columns", work=True)
-    haste = real("bodies", work=True)
-    reach = real("bodies", work=True)
+    body_rate = real("bodies", work=True)
+    body_length = real("bodies", work=True)
 
 
 class Stages(Table, prefix="stage_"):
     """Scratch of one Runge-Kutta step.
 
-    `tried`: start and size of the one last tried [s]; `drift`: the most that an active row is off at its end, and a
-    rate; `independence` of the rows at each of its stages, of which `stage` is the one computed last; `looks_stiff`
-    says how stiff an explicit one found the motion; `jams` is 1 where forces and friction did not agree at a stage;
-    `stiffest` is the unknown that limited the steps, once that was asked; `behind` are points of the motion before
-    y_start, with their derivatives (see `passing`).
+    `tried`: start and size of the one last tried [s]; `rate` at which the mechanism moves there, in scale; `drift`: the
+    most that an active row is off at its end, and a rate; `independence` of the rows at each of its stages, of which
+    `stage` is the one computed last; `looks_stiff` says how stiff an explicit one found the motion; `jams` is 1 where
+    forces and friction did not agree at a stage; `stiffest` is the unknown that limited the steps, once that was asked;
+    `behind` are points of the motion before y_start, with their derivatives (see `passing`).
     """
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
     tried = real(2, name="tried", work=True)
+    rate = real(1, work=True)
     drift = real(2, work=True)
     y_start = real("unknowns", name="y_start", work=True)
     y_stage = real("unknowns", name="y_stage", work=True)

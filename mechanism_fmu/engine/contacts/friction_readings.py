@@ -14,7 +14,7 @@ from ..constraints.entries import along_row
 from ..constraints.friction_rows import friction_row, meets, sticks, touches
 from ..constraints.point_line import spare_row
 from ..constraints.rows import contact_row
-from ..scales import bodies_of, pace_of, slip_scale
+from ..scales import bodies_of, pair_rate, slip_scale
 
 #: An acceleration below this is none, in the scale of the mechanism.
 _AT_REST = 1e-8
@@ -50,7 +50,7 @@ def sticks_now(block: Array, at: Pose, index: int, _slot: int, _value: float) ->
     speed = Rows(block).residual_rate[spare_row(block)]
     scale = slip_scale(block, index)
     i, j = bodies_of(block, index)
-    rests = abs(speed) <= SLIPS_ABOVE * scale and abs(_along_spare(block)) <= _AT_REST * scale * pace_of(block, i, j)
+    rests = abs(speed) <= SLIPS_ABOVE * scale and abs(_along_spare(block)) <= _AT_REST * scale * pair_rate(block, i, j)
     return 1.0 if rests else 0.0
 
 

@@ -17,7 +17,7 @@ from ...tables.sizes import Sizes
 from ...tolerances import ACCELERATIONS_WITHIN, PUSHES_SHARE, PUSHES_WITHIN, SPEEDS_SHARE
 from ..compiler.subset import jit, keep_small
 from ..constraints.rows import row_response
-from ..scales import pace_of, row_unit
+from ..scales import pair_rate, row_unit
 
 
 @jit
@@ -48,7 +48,7 @@ def force_rounding(block: Array, row: int) -> float:
 @jit
 def _part(block: Array, row: int, part: float) -> float:
     """A part of the acceleration along a row by what acts, and the rounding of the last solve."""
-    rate = pace_of(block, Rows(block).body[row, 0], Rows(block).body[row, 1])
+    rate = pair_rate(block, Rows(block).body[row, 0], Rows(block).body[row, 1])
     own = row_unit(block, row) * rate * rate
     rounding: float = part * own + LinearSystem(block).level[0] * math.sqrt(row_response(block, row))
     return rounding
@@ -60,7 +60,7 @@ def speed_rounding(block: Array, row: int, size: float) -> float:
     keep_small()
     entry = Rows(block).jacobian[row]
     n = Sizes(block).coordinates
-    size += row_unit(block, row) * pace_of(block, Rows(block).body[row, 0], Rows(block).body[row, 1])
+    size += row_unit(block, row) * pair_rate(block, Rows(block).body[row, 0], Rows(block).body[row, 1])
     for end in range(2):
         first = 3 * Rows(block).body[row, end]
         for k in range(first, min(first + 3, n)):

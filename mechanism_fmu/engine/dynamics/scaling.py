@@ -16,6 +16,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
+from ..scales import rate_scale
 from ..vectors import clear
 from .forces import apply_forces, set_time
 from .islands import leader_of
@@ -28,6 +29,8 @@ LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 5.6264
 _FAR = 2.0**-12
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
+#: What moves so many times more slowly than the scale of rates says has a slower one.
+_FAR_MORE_SLOWLY = 32.0
 #: A rate below this is none: the fifth power of its time is no number.
 _NOTHING = 2.0**-200
 
@@ -40,57 +43,34 @@ def note_sizes(block: Array) -> None:
     a part of how far it is away.
     """
     keep_apart()
+    _note_arms(block)
     inverse = Bodies(block).inverse_mass
-    scales = Course(block).scales
     own = Course(block).body_scales
-    n = Sizes(block).coordinates
-    reach = Loads(block).reach
-    clear(reach)
-    count = active_rows(block, place_bodies(block, Course(block).y_end))
-    for b in range(Sizes(block).bodies):
-        LinearSystem(block).leader[b] = b
-    for r in range(count):
-        entry = Rows(block).jacobian[r]
-        i, j = Rows(block).body[r, 0], Rows(block).body[r, 1]
-        for b in (i, j):
-            across = math.sqrt(entry[3 * b] * entry[3 * b] + entry[3 * b + 1] * entry[3 * b + 1])
-            if 3 * b < n and across > 0.0:
-                reach[b] = max(reach[b], abs(entry[3 * b + 2]) / across)
-        if 3 * i < n and 3 * j < n:
-            one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)
-            LinearSystem(block).leader[max(one, other)] = min(one, other)
-    table = Contacts(block)
-    for c in range(Sizes(block).contacts):
-        for outline, b in ((table.outline_i[c], table.body_i[c]), (table.outline_j[c], table.body_j[c])):
-            if outline != codes.NONE and 3 * b < n:
-                reach[b] = max(reach[b], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
-        if table.kind[c] == codes.POINT_LINE:
-            for point, b in ((table.data[c], table.body_i[c]), (table.line[c], table.body_j[c])):
-                if 3 * b < n:
-                    reach[b] = max(reach[b], math.sqrt(point[0] * point[0] + point[1] * point[1]))
-    widest = Loads(block).haste
+    arms = Loads(block).body_length
+    widest = Loads(block).body_rate
     clear(widest)
     for b in range(Sizes(block).bodies):
         leader = leader_of(LinearSystem(block), b)
-        widest[leader] = max(widest[leader], reach[b])
+        widest[leader] = max(widest[leader], arms[b])
     mass = length = 0.0
-    for k in range(0, n, 3):
-        b = k // 3
+    for b in range(Sizes(block).bodies):
+        k = 3 * b
         mass = max(mass, 1.0 / inverse[k])
         far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
         gyration = math.sqrt(inverse[k] / inverse[k + 2])
-        arm = reach[b] if reach[b] > 0.0 else widest[leader_of(LinearSystem(block), b)]
+        arm = arms[b] if arms[b] > 0.0 else widest[leader_of(LinearSystem(block), b)]
         if arm > 0.0:
             gyration = min(gyration, max(arm, far))  # the inertia of what shall not turn is no size
-        own[b, codes.BODY_LENGTH] = max(gyration, reach[b], _FAR * far) / LENGTH
-        own[b, codes.BODY_EXTENT] = own[b, codes.BODY_PACE] = 0.0
+        own[b, codes.BODY_LENGTH] = max(gyration, arms[b], _FAR * far) / LENGTH
+        own[b, codes.ISLAND_LENGTH] = own[b, codes.ISLAND_RATE] = 0.0
         length = max(length, own[b, codes.BODY_LENGTH])
-    clear(reach)
-    clear(Loads(block).haste)
+    clear(arms)
+    clear(widest)
     for b in range(Sizes(block).bodies):
         join_scales(block, leader_of(LinearSystem(block), b), b)
     for b in range(Sizes(block).bodies):
         take_scales(block, leader_of(LinearSystem(block), b), b)
+    scales = Course(block).scales
     scales[codes.SCALE_LENGTH] = length
     scales[codes.SCALE_MASS] = mass / _MASS
     scales[codes.SCALE_RATE] = 0.0
@@ -98,19 +78,49 @@ def note_sizes(block: Array) -> None:
 
 
 @jit
+def _note_arms(block: Array) -> None:
+    """Let `loads.body_length` be the largest arm of each body's rows, points and outlines; and join bodies by rows."""
+    n = Sizes(block).coordinates
+    arms = Loads(block).body_length
+    clear(arms)
+    leader = LinearSystem(block).leader
+    for b in range(Sizes(block).bodies):
+        leader[b] = b
+    for r in range(active_rows(block, place_bodies(block, Course(block).y_end))):
+        entry = Rows(block).jacobian[r]
+        i, j = Rows(block).body[r, 0], Rows(block).body[r, 1]
+        for b in (i, j):
+            across = math.sqrt(entry[3 * b] * entry[3 * b] + entry[3 * b + 1] * entry[3 * b + 1])
+            if 3 * b < n and across > 0.0:
+                arms[b] = max(arms[b], abs(entry[3 * b + 2]) / across)
+        if 3 * i < n and 3 * j < n:
+            one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)
+            leader[max(one, other)] = min(one, other)
+    table = Contacts(block)
+    for c in range(Sizes(block).contacts):
+        for outline, b in ((table.outline_i[c], table.body_i[c]), (table.outline_j[c], table.body_j[c])):
+            if outline != codes.NONE and 3 * b < n:
+                arms[b] = max(arms[b], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
+        if table.kind[c] == codes.POINT_LINE:
+            for point, b in ((table.data[c], table.body_i[c]), (table.line[c], table.body_j[c])):
+                if 3 * b < n:
+                    arms[b] = max(arms[b], math.sqrt(point[0] * point[0] + point[1] * point[1]))
+
+
+@jit
 def join_scales(block: Array, leader: int, body: int) -> None:
-    """Let what a body has by itself count for all bodies behind this leader, in `loads.haste` and `loads.reach`."""
+    """Let what a body has by itself count for all bodies behind this leader: in `body_rate` and `body_length`."""
     load = Loads(block)
     own = Course(block).body_scales[body]
-    load.haste[leader] = max(load.haste[leader], max(load.haste[body], _FALLS * own[codes.BODY_PACE]))
-    load.reach[leader] = max(load.reach[leader], own[codes.BODY_LENGTH])
+    load.body_rate[leader] = max(load.body_rate[leader], max(load.body_rate[body], _FALLS * own[codes.ISLAND_RATE]))
+    load.body_length[leader] = max(load.body_length[leader], own[codes.BODY_LENGTH])
 
 
 @jit
 def take_scales(block: Array, leader: int, body: int) -> None:
     """Let a body have the scales that have been joined behind this leader."""
-    Course(block).body_scales[body, codes.BODY_EXTENT] = Loads(block).reach[leader]
-    Course(block).body_scales[body, codes.BODY_PACE] = Loads(block).haste[leader]
+    Course(block).body_scales[body, codes.ISLAND_LENGTH] = Loads(block).body_length[leader]
+    Course(block).body_scales[body, codes.ISLAND_RATE] = Loads(block).body_rate[leader]
 
 
 @jit
@@ -118,10 +128,10 @@ def note_rate(block: Array, least: float) -> None:
     """Write the scale of the present rate from what acts and moves at y_end, and that of all rates, where none is yet.
 
     It is `least` [1/s] or more, and that of a motor's winding where that is faster by orders. What nothing acts on and
-    nothing moves in goes by 1/s, until something does. The rate of each body by itself becomes `loads.haste`.
+    nothing moves in goes by 1/s, until something does. The rate of each body by itself becomes `loads.body_rate`.
     """
     keep_apart()
-    rate = max(_note_haste(block), _in_scale(least))
+    rate = max(_note_body_rates(block), _in_scale(least))
     winding = winding_rate(block) / RATE
     if rate < _FALLS * winding:
         rate = winding
@@ -131,10 +141,28 @@ def note_rate(block: Array, least: float) -> None:
 
 
 @jit
+def moving_rate(block: Array, y: Array, dy: Array) -> float:
+    """The scale of rates, or less where the mechanism moves far more slowly by now: so it is where forces hold others.
+
+    By the rates and accelerations in `dy`, shape (unknowns,), at `y`.
+    """
+    n = Sizes(block).coordinates
+    own = Course(block).body_scales
+    most = 0.0
+    for k in range(0, n, 3):
+        length = LENGTH * own[k // 3, codes.ISLAND_LENGTH]
+        speed = max(max(abs(y[n + k]), abs(y[n + k + 1])) / length, abs(y[n + k + 2]))
+        pull = max(max(abs(dy[n + k]), abs(dy[n + k + 1])) / length, abs(dy[n + k + 2]))
+        most = max(most, max(speed * speed, pull))
+    rate = rate_scale(block)
+    return min(rate, max(_FAR_MORE_SLOWLY / RATE * math.sqrt(most), _FALLS * rate))
+
+
+@jit
 def note_slopes(block: Array) -> None:
     """Raise the scale of rates where what acts at the end of the inputs' slopes is faster by orders."""
     set_time(block, Course(block).clock[codes.RAMP_END])
-    _raise_rate(block, _note_haste(block))
+    _raise_rate(block, _note_body_rates(block))
 
 
 @jit
@@ -146,24 +174,24 @@ def _raise_rate(block: Array, rate: float) -> None:
 
 
 @jit
-def _note_haste(block: Array) -> float:
-    """Let `loads.haste` be the rate of what acts on each body and moves at y_end, at the inputs of now; the largest."""
+def _note_body_rates(block: Array) -> float:
+    """Let `loads.body_rate` be the rate of what acts on each body and moves at y_end, by inputs of now; the largest."""
     keep_small()
     y = Course(block).y_end
     n = Sizes(block).coordinates
     apply_forces(block, place_bodies(block, y), y, Stages(block).dy_at)
     inverse = Bodies(block).inverse_mass
     size = Loads(block).size
-    haste = Loads(block).haste
-    clear(Loads(block).reach)
+    rates = Loads(block).body_rate
+    clear(Loads(block).body_length)
     largest = 0.0
     for k in range(0, n, 3):
-        length = LENGTH * Course(block).body_scales[k // 3, codes.BODY_EXTENT]
+        length = LENGTH * Course(block).body_scales[k // 3, codes.ISLAND_LENGTH]
         moves = max(max(abs(y[n + k]), abs(y[n + k + 1])) / length, abs(y[n + k + 2]))
         acts = max(size[k], size[k + 1]) * inverse[k] / length
         acts = max(acts, size[k + 2] / (1.0 / inverse[k + 2] + length * length / inverse[k]))
-        haste[k // 3] = _in_scale(max(moves, math.sqrt(acts)))
-        largest = max(largest, haste[k // 3])
+        rates[k // 3] = _in_scale(max(moves, math.sqrt(acts)))
+        largest = max(largest, rates[k // 3])
     return largest
 
 

@@ -23,7 +23,7 @@ from ..compiler.subset import entry, jit, keep_apart, keep_small
 from ..constraints.friction_rows import rubs
 from ..dynamics.linear_solve import KEEP
 from ..outputs import read_outputs
-from ..scales import unknown_scale
+from ..scales import rate_scale, unknown_scale
 from ..vectors import copy
 from .indicators import evaluate
 
@@ -80,7 +80,7 @@ def _first_step(block: Array) -> tuple[float, bool]:
             step = min(step, (_PART * abs(table.inputs[k]) + _LEAST_INPUT) / abs(table.input_seed[k]))
     for k in range(table.states.shape[0]):
         if table.state_seed[k] != 0.0:
-            step = min(step, _OF_STATES * unknown_scale(block, k) / abs(table.state_seed[k]))
+            step = min(step, _OF_STATES * unknown_scale(block, k, rate_scale(block)) / abs(table.state_seed[k]))
             moved = True
     return step if step < math.inf else 1.0, moved
 

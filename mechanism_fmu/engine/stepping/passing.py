@@ -27,7 +27,7 @@ from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.curves import within_motions
-from ..scales import largest_off, unknown_scale
+from ..scales import largest_off, rate_scale, unknown_scale
 from ..vectors import clear, copy
 from .events import first_event
 from .runge_kutta import ABSOLUTE_FRACTION, try_step
@@ -211,7 +211,7 @@ def _look_back(block: Array, start: float, spacing: float, near: bool) -> bool:
             try_step(block, time + short, -short)
         set_time(block, time)
         if not near or part >= _PARTS:
-            close_rows(block, s.y_new, 0.0, 0.0)
+            close_rows(block, s.y_new, 0.0, 0.0, 0.0)
         derivative(block, s.y_new, s.derivatives[_LAST])
         is_same = is_same and LinearSystem(block).rank[0] == Course(block).counters[codes.RANK]
         if part % _PARTS == 0:
@@ -269,7 +269,7 @@ def _distance(block: Array, y: Array, other: Array) -> float:
     least = _square(block, y[n:])
     for i in range(2 * n, Sizes(block).y_wear):
         if i >= Sizes(block).y_alpha:
-            least = ABSOLUTE_FRACTION * unknown_scale(block, i)
+            least = ABSOLUTE_FRACTION * unknown_scale(block, i, rate_scale(block))
         most = max(most, abs(y[i] - other[i]) / (least + abs(y[i])))
     error: float = most / relative
     return error
@@ -305,7 +305,7 @@ def _put_right(block: Array, start: float, size: float) -> float:
     s = Stages(block)
     copy(s.y_new, s.y_at)
     set_time(block, start + size)
-    close_rows(block, s.y_new, 0.0, 0.0)
+    close_rows(block, s.y_new, 0.0, 0.0, 0.0)
     derivative(block, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
     s.drift[0] = largest_off(block, Rows(block).residual, count)

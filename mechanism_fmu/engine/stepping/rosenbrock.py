@@ -25,7 +25,7 @@ from ..constraints.rows import active_rows
 from ..dynamics.acceleration import correct, derivative, take_off
 from ..dynamics.forces import set_time
 from ..elementary import exp, log
-from ..scales import unknown_scale
+from ..scales import rate_scale, unknown_scale
 from ..vectors import clear, copy
 from .stage import evaluate_stage
 
@@ -189,7 +189,7 @@ def _differentiate(block: Array, start: float, h: float) -> None:
     for k in range(n + _order(block)):
         j = k if k < n else _unknown(block, k - n)
         there = s.y_start[j]
-        s.y_stage[j] = there + _MOVES * (_MOVES_AT_LEAST * unknown_scale(block, j) + abs(there))
+        s.y_stage[j] = there + _MOVES * (_MOVES_AT_LEAST * unknown_scale(block, j, rate_scale(block)) + abs(there))
         move = s.y_stage[j] - there
         derivative(block, s.y_stage, s.dy_at)
         s.y_stage[j] = there

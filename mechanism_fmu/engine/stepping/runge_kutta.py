@@ -135,9 +135,9 @@ def scaled_error(block: Array, i: int, h: float) -> float:
         if _ERROR[j] != 0.0:
             error += _ERROR[j] * k[j, i]
     error *= h
-    size = ABSOLUTE_FRACTION * unknown_scale(block, i)
+    size = ABSOLUTE_FRACTION * unknown_scale(block, i, s.rate[0])
     n = Sizes(block).coordinates
-    long = h * rate_scale(block)
+    long = h * s.rate[0]
     if n <= i < 2 * n and long > 1.0:  # in a long step, such a speed leads farther than what counts of places
         size /= long
     size += max(abs(s.y_start[i]), abs(s.y_new[i]))
@@ -155,15 +155,15 @@ def initial_step_size(block: Array) -> float:
     n = Sizes(block).y_wear
     now = Course(block)
     s = Stages(block)
+    rate = rate_scale(block)
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
     size_y = size_dy = 0.0
     for i in range(n):
-        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i) + abs(now.y_end[i]))
+        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i, rate) + abs(now.y_end[i]))
         size_y += (now.y_end[i] / scale) * (now.y_end[i] / scale)
         size_dy += (now.dy_end[i] / scale) * (now.dy_end[i] / scale)
     size_y = math.sqrt(size_y / n)
     size_dy = math.sqrt(size_dy / n)
-    rate = rate_scale(block)
     least = _FIRST_STEP / rate
     first = least
     # what is no larger than its tolerance says nothing of how fast it may change
@@ -174,7 +174,7 @@ def initial_step_size(block: Array) -> float:
     derivative(block, s.y_stage, s.dy_at)
     bend = 0.0
     for i in range(n):
-        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i) + abs(now.y_end[i]))
+        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i, rate) + abs(now.y_end[i]))
         difference = (s.dy_at[i] - now.dy_end[i]) / scale
         bend += difference * difference
     bend = math.sqrt(bend / n) / first

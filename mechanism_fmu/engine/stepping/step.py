@@ -263,9 +263,11 @@ def _mend_and_check(block: Array) -> int:
     now = Course(block)
     set_time(block, now.clock[codes.STEP_END])
     drift = Stages(block).drift
-    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= MOST_RATE_DRIFT * rate_scale(block))
+    # a rate that is off leads farther in a long step
+    most_rate = MOST_RATE_DRIFT / max(1.0, now.clock[codes.STEP_SIZE] * rate_scale(block))
+    drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= most_rate * rate_scale(block))
     mends = not closes_step(block) and (drifted or Sizes(block).alphas > 0)
-    if mends and mend(block, MOST_DRIFT, MOST_RATE_DRIFT):
+    if mends and mend(block, MOST_DRIFT, most_rate):
         derivative(block, now.y_end, now.dy_end)
     if Sizes(block).outlines > 0:
         contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
