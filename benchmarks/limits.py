@@ -149,7 +149,9 @@ def _reasons(simulation: Simulation, steps: int) -> float:
     try:
         for _ in range(steps):
             simulation.go_on(MOTION, codes.STOP_AT_STEP)
-            turned += np.abs(y[:count] - before)
+            start, size = simulation.field("clock")[[codes.STEP_START, codes.STEP_SIZE]]
+            inside = min(1.0, (MOTION - start) / size)  # the last step may end behind the motion that is timed
+            turned += inside * np.abs(y[:count] - before)
             before = y[:count].copy()
             now = _senses(simulation.field("dy_end")[rates])
             changes += now * sense < 0

@@ -76,6 +76,8 @@ def _may_have_come_off(table: Contacts, contact: int, struck: int) -> bool:
 
 #: So many events within `PILE_TIME`, in the time of the mechanism, are no motion any more.
 MOST_PILED = 2000
+#: So little of the energy is its rounding: by that, nothing is gained.
+_ROUNDING = 1e-15
 PILE_TIME = 1e-9
 
 
@@ -125,6 +127,8 @@ def transit(block: Array, guard: int, subject: int) -> int:
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - participants_energy(block)
     if not abs(lost) < math.inf:  # speeds whose squares are no numbers
         return status.STEP_TOO_SMALL
+    if -_ROUNDING * energy < lost < 0.0:
+        lost = 0.0
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome

@@ -18,6 +18,7 @@ from ...tables.declare import Array
 from ...tables.implicit_method import RODAS5P
 from ...tables.method import METHOD
 from ...tables.motion import Implicit, Loads, Rows, Stages
+from ...tables.parts import Bodies
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
@@ -44,6 +45,8 @@ _KEPT_AS[list(RODAS5P.inside)] = [METHOD.interior[min(k, len(METHOD.interior) - 
 #: By such a part of its scale, and of an absolute one, an unknown is moved for a difference: the root of rounding.
 _MOVES = 2.0**-26
 _MOVES_AT_LEAST = 1e-3
+#: Such a part of what acts is rounding: a few last digits.
+_ROUNDING = 2.0**-48
 #: And the time, by such a part of the step.
 _MOVES_TIME = 1e-3
 #: So much counts what of a step's error leads off the constraints: mending takes it away, but not from within the step.
@@ -194,7 +197,12 @@ def _differentiate(block: Array, start: float, h: float) -> None:
         derivative(block, s.y_stage, s.dy_at)
         s.y_stage[j] = there
         for i in range(Sizes(block).unknowns):
-            table.jacobian[i, j] = (s.dy_at[i] - s.derivatives[0, i]) / move
+            change = s.dy_at[i] - s.derivatives[0, i]
+            if n <= i < 2 * n:  # a rate that changes by rounding alone would be taken times the way of a long step
+                acts = Loads(block).size[i - n] * Bodies(block).inverse_mass[i - n]
+                if abs(change) <= _ROUNDING * (acts + abs(s.dy_at[i])):
+                    change = 0.0
+            table.jacobian[i, j] = change / move
     # of second order and from this instant on: before it, another piece of a driver's motion may have held
     for i in range(Sizes(block).unknowns):
         table.by_time[i] = -1.5 * s.derivatives[0, i]
