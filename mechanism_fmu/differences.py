@@ -170,11 +170,11 @@ class _Column:
         rounding = np.finfo(np.float64).eps * np.abs(self.middle) / self._largest_step
         error: Array = np.maximum(self.slope.error, np.where(self.slope.best == 0.0, 0.0, rounding))
         if self.jump.rows:
-            error = np.maximum(error, 0.5 * np.abs(self.jump.best))
+            error = np.maximum(error, 0.5 * (np.abs(self.jump.best) + self.jump.error))
         if len(self.jump.rows) > 3:  # of a kink within the last steps, what is left does not fall as the steps' cubes
             left = [np.abs(row[1]) for row in self.jump.rows[-3:]]
             stays = (left[2] > 0.25 * left[1]) | (left[1] > 0.25 * left[0])
-            stays &= np.maximum(left[1], left[2]) > _NOISE * np.abs(self.middle) / self._largest_step
+            stays &= np.maximum(left[1], left[2]) > 8.0 * np.finfo(np.float64).eps * np.abs(self.middle) / self.step
             error = np.where(stays, np.maximum(error, _KINK * np.maximum(left[1], left[2])), error)
         return error
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import example, given, strategies as st
 
 from mechanism_fmu.differences import Array, Sample, Slopes, slopes
 
@@ -191,6 +191,7 @@ def test_a_kink_that_no_event_names_is_found(way: float, slopes_: tuple[float, f
 
 
 @given(st.floats(-8.0, -1.0), st.booleans(), st.floats(-2.0, 2.0), st.floats(-2.0, 2.0))
+@example(-4.0, False, 0.0, 2e-6)
 def test_the_error_beside_a_kink_is_no_larger_than_said(power: float, up: bool, below: float, above: float) -> None:
     """Wherever it is: none, or the slope at the middle within its error."""
     place = 1.0 + (10.0**power if up else -(10.0**power))
