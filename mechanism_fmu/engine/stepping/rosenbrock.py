@@ -45,8 +45,10 @@ _KEPT_AS[list(RODAS5P.inside)] = [METHOD.interior[min(k, len(METHOD.interior) - 
 #: By such a part of its scale, and of an absolute one, an unknown is moved for a difference: the root of rounding.
 _MOVES = 2.0**-26
 _MOVES_AT_LEAST = 1e-3
-#: Such a part of what acts is rounding: a few last digits.
+#: What changes by such a part of what acts, a few last digits, changes by rounding; looked at in places that are so
+#: many times their scale away from zero, where the way of a step may be as long.
 _ROUNDING = 2.0**-48
+_FAR = 16.0
 #: And the time, by such a part of the step.
 _MOVES_TIME = 1e-3
 #: So much counts what of a step's error leads off the constraints: mending takes it away, but not from within the step.
@@ -196,9 +198,10 @@ def _differentiate(block: Array, start: float, h: float) -> None:
         move = s.y_stage[j] - there
         derivative(block, s.y_stage, s.dy_at)
         s.y_stage[j] = there
+        far = k < n and abs(there) > _FAR * unknown_scale(block, j, 1.0)
         for i in range(Sizes(block).unknowns):
             change = s.dy_at[i] - s.derivatives[0, i]
-            if n <= i < 2 * n:  # a rate that changes by rounding alone would be taken times the way of a long step
+            if far and n <= i < 2 * n:  # the rounding of an acceleration would be taken times a long way
                 acts = Loads(block).size[i - n] * Bodies(block).inverse_mass[i - n]
                 if abs(change) <= _ROUNDING * (acts + abs(s.dy_at[i])):
                     change = 0.0
