@@ -143,7 +143,8 @@ class LinearSystem(Table):
     """The minimum-norm problem D z = b, with D^T multiplier = z, and the scratch of its solution.
 
     `rank` is that of D, and `independence` says how far its least independent row is from depending on the others: the
-    share of its squared length that is left after projection. A row of `scaled` has three entries of each of the
+    share of its squared length that is left after projection. What has less than `least_independence` counts as
+    dependent; 0 for what is so but for rounding. A row of `scaled` has three entries of each of the
     bodies in `scaled_body`.
 
     `kept` is 1 where the next factorisation is to be kept, 2 once it stands: while nothing but forces changes.
@@ -201,6 +202,7 @@ class LinearSystem(Table):
     dual = real("rows", work=True)
     rank = integer(1, work=True)
     independence = real(1, work=True)
+    least_independence = real(1, work=True)
 
 
 class Loads(Table):

@@ -94,6 +94,8 @@ MOST_RATE_DRIFT = 1e-10
 _CORRECTIONS = 3
 #: At events, where positions and rates are put right anyway.
 LEAST_DRIFT = 1e-14
+#: Rows with less independence than this are not closed: their bodies would move by 1000 times the drift, and more.
+LEAST_INDEPENDENCE = 1e-6
 
 
 @jit
@@ -117,18 +119,18 @@ def close_again(block: Array, y: Array, count: int) -> None:
 @jit
 def mend(block: Array, most: float, most_rate: float) -> bool:
     """Close the active rows at y_end when one is off by more than `most`, or its rate; whether anything was moved."""
-    return close_rows(block, Course(block).y_end, most, most_rate)
+    return close_rows(block, Course(block).y_end, most, most_rate, LEAST_INDEPENDENCE)
 
 
 @jit
-def close_rows(block: Array, y: Array, most: float, most_rate: float) -> bool:
-    """Close the active rows at `y`, shape (unknowns,), as `mend` does.
+def close_rows(block: Array, y: Array, most: float, most_rate: float, independent: float) -> bool:
+    """Close the active rows at `y`, shape (unknowns,), as `mend` does, positions where they are `independent`.
 
     Both corrections are the least in the metric of the masses, as that of an impact.
     """
     keep_small()
     n = Sizes(block).coordinates
-    count, moved = close_positions(block, y, most)
+    count, moved = close_positions(block, y, most, independent)
     if moved or largest(Rows(block).residual_rate, count) > most_rate:
         correct(block, count, Rows(block).residual_rate, y[n:])
         moved = True
@@ -136,7 +138,7 @@ def close_rows(block: Array, y: Array, most: float, most_rate: float) -> bool:
 
 
 @jit
-def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
+def close_positions(block: Array, y: Array, most: float, independent: float) -> tuple[int, bool]:
     """Close the active rows at `y`, shape (unknowns,), where one is off by more than `most`, and leave their rates.
 
     The rows are then those at the new positions. Return their number, and whether anything was moved.
@@ -147,6 +149,7 @@ def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
     count = active_rows(block, at)
     if not largest(Rows(block).residual, count) > most:
         return count, False
+    LinearSystem(block).least_independence[0] = independent
     for _ in range(_CORRECTIONS):
         come_nearer(block, correct(block, count, Rows(block).residual, y))
         at = place_bodies(block, y)
@@ -154,6 +157,7 @@ def close_positions(block: Array, y: Array, most: float) -> tuple[int, bool]:
         count = active_rows(block, at)
         if not largest(Rows(block).residual, count) > MOST_DRIFT:
             break
+    LinearSystem(block).least_independence[0] = 0.0
     return count, True
 
 

@@ -78,6 +78,7 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
     first = system.island_range[island, 0]
     end = system.island_range[island, 1]
     independence = 1.0
+    least = max(RANK_TOLERANCE * RANK_TOLERANCE, system.least_independence[0])
     system.island_singletons[island] = first
     for q in range(first, end):
         i = system.island_row[q]
@@ -89,7 +90,7 @@ def _orthogonalise_island(system: LinearSystem, island: int, width: int) -> floa
     for r in range(first, end):
         system.island_rank[island] = r - first
         fraction = _choose_pivot(system, r, end)
-        if not fraction > RANK_TOLERANCE * RANK_TOLERANCE:
+        if not fraction > least:
             return independence
         p = system.order[r]
         if system.singleton[p] != codes.NONE and fraction == 1.0:

@@ -133,6 +133,7 @@ def factorise_sparse(block: Array, count: int) -> bool:
     ground = Sizes(block).bodies
     w = system.spread
     least = 1.0
+    depends_below = max(_DEPENDS_BELOW, system.least_independence[0])
     for i in range(count):
         w[i] = 0.0
     for i in range(count):
@@ -152,7 +153,7 @@ def factorise_sparse(block: Array, count: int) -> bool:
             left -= value * share
         for q in range(mine, mine + system.fill_count[i]):
             w[system.fill[q]] = 0.0
-        if not left > _DEPENDS_BELOW * square:
+        if not left > depends_below * square:
             return False
         system.pivot[i] = 1.0 / left
         least = min(least, left / square)

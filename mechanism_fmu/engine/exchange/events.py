@@ -24,7 +24,7 @@ from ..contacts.guards import gap, guard_of
 from ..contacts.impact import clear_records
 from ..contacts.inside import blame
 from ..contacts.transition import release, transit
-from ..dynamics.acceleration import LEAST_DRIFT, MOST_RATE_DRIFT, close_positions, mend
+from ..dynamics.acceleration import LEAST_DRIFT, LEAST_INDEPENDENCE, MOST_RATE_DRIFT, close_positions, mend
 from ..dynamics.forces import inputs_changed, take_inputs
 from ..dynamics.thresholds import change_sides
 from ..outlines.nearest import MEETS, look_no_deeper, nearest
@@ -210,7 +210,7 @@ def _bring_together(block: Array, contact: int) -> None:
         return
     mode = Contacts(block).mode
     mode[contact] = codes.CLOSED
-    close_positions(block, now.y_end, LEAST_DRIFT)
+    close_positions(block, now.y_end, LEAST_DRIFT, LEAST_INDEPENDENCE)
     mode[contact] = codes.OPEN
     mend(block, math.inf, MOST_RATE_DRIFT)
 

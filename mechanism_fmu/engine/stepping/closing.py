@@ -9,7 +9,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import row_count
-from ..dynamics.acceleration import MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative
+from ..dynamics.acceleration import LEAST_INDEPENDENCE, MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative
 from ..interpolation import QUINTIC, has_gains, write_motion
 from ..profiles.nearest import settle_contact_points
 from ..vectors import copy, largest
@@ -17,8 +17,6 @@ from .singular import independence
 
 #: Rows that have drifted by less than so many times `MOST_DRIFT` are closed by one correction, and no further look.
 _NEAR = 1e3
-#: Where the square of the sine by which rows depend on each other is above this.
-_INDEPENDENT = 1e-6
 
 
 @jit
@@ -36,7 +34,7 @@ def closes_step(block: Array) -> bool:
     count = row_count(block)
     if largest(Rows(block).residual, count) != drift[0] or largest(Rows(block).residual_rate, count) != drift[1]:
         derivative(block, now.y_end, now.dy_end)  # something else has been evaluated since
-    if not independence(block) > _INDEPENDENT:
+    if not independence(block) > LEAST_INDEPENDENCE:
         return False
     closes = drift[0] > 0.0 or drift[1] > 0.0
     if closes:

@@ -21,7 +21,7 @@ from ..constraints.point_line import spare_row
 from ..constraints.rows import row_count
 from ..contacts.complementarity import hold_ratio, push_ratio, push_tolerance
 from ..contacts.guards import can_open
-from ..dynamics.acceleration import close_rows, derivative
+from ..dynamics.acceleration import LEAST_INDEPENDENCE, close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..vectors import copy
@@ -74,7 +74,7 @@ def _spare(block: Array, guard: int, subject: int, fraction: float) -> float:
     keep_small()
     s = Stages(block)
     set_time(block, s.tried[0] + fraction * s.tried[1])
-    close_rows(block, s.y_at, 0.0, 0.0)
+    close_rows(block, s.y_at, 0.0, 0.0, LEAST_INDEPENDENCE)
     derivative(block, s.y_at, s.dy_at)
     if guard == codes.GUARD_PUSH:
         return push_ratio(block, subject, push_tolerance(block, row_count(block)))

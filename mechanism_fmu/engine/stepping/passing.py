@@ -209,7 +209,7 @@ def _look_back(block: Array, start: float, spacing: float, near: bool) -> bool:
             try_step(block, time + short, -short)
         set_time(block, time)
         if not near or part >= _PARTS:
-            close_rows(block, s.y_new, 0.0, 0.0)
+            close_rows(block, s.y_new, 0.0, 0.0, 0.0)
         derivative(block, s.y_new, s.derivatives[_LAST])
         is_same = is_same and LinearSystem(block).rank[0] == Course(block).counters[codes.RANK]
         if part % _PARTS == 0:
@@ -303,7 +303,7 @@ def _put_right(block: Array, start: float, size: float) -> float:
     s = Stages(block)
     copy(s.y_new, s.y_at)
     set_time(block, start + size)
-    close_rows(block, s.y_new, 0.0, 0.0)
+    close_rows(block, s.y_new, 0.0, 0.0, 0.0)
     derivative(block, s.y_new, s.derivatives[_LAST])
     count = row_count(block)
     s.drift[0] = largest(Rows(block).residual, count)

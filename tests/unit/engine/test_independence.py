@@ -77,3 +77,24 @@ def test_what_is_left_of_a_row_after_many_small_losses_is_exact():
     row = d ** np.arange(6)
     D = np.vstack([np.eye(5, 6), row])
     assert independence(D) == pytest.approx(d**10 / np.sum(row**2), rel=1e-9, abs=0)
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.integers(0, 2**32 - 1))
+@pytest.mark.parametrize("distance", [1e-2, 1e-4, 1e-6, 1e-9, 0.0])
+@pytest.mark.parametrize("rows", [3, 6])
+def test_what_nearly_depends_is_left_where_a_least_independence_is_asked_for(rows, distance, seed):
+    """So that a solution is no larger than a thousand times what it is to bring, each row measured by its length."""
+    random = np.random.default_rng(seed)
+    D = np.linalg.qr(random.standard_normal((12, rows)))[0].T
+    D[-1] = D[0] + distance * D[-1]
+    b = 1e-9 * random.standard_normal(rows)
+    least = field_of(BLOCK, "least_independence")
+    least[0] = 1e-6
+    try:
+        z, _, rank = solve(D, b)
+    finally:
+        least[0] = 0.0
+    assert rank == (rows if distance > 1e-3 else rows - 1)
+    assert np.abs(z).max() < 1e3 * np.abs(b).sum()
+    np.testing.assert_allclose(D[1:-1] @ z, b[1:-1], rtol=0, atol=1e-21)
