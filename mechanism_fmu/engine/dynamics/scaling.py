@@ -10,6 +10,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.method import METHOD
 from ...tables.motion import Course, LinearSystem, Loads, Rows, Stages
 from ...tables.parts import Bodies, Contacts, Outlines
 from ...tables.sizes import Sizes
@@ -22,9 +23,10 @@ from .forces import apply_forces, set_time
 from .islands import leader_of
 from .own_states import winding_rate
 
+_LAST = METHOD.last
 #: What has scale 1 [m, 1/s, kg]: the ratchet of the paper, to the last digit, so that its steps are those of the
 #: paper's model; the numbers of `tolerances` are for its size.
-LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 5.6264
+LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 3.2794799999999995
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
@@ -40,7 +42,7 @@ def note_sizes(block: Array) -> None:
     """Write the scales of length and mass, from the bodies' start, and from the arms of the rows that are active.
 
     The length of a body is the largest of its radius of gyration, of its arms, of the radius of its outlines, and of
-    a part of how far it is away.
+    a part of how far it is away. Of what is pinned in its middle the inertia counts in place of the mass.
     """
     keep_apart()
     _note_arms(block)
@@ -55,13 +57,15 @@ def note_sizes(block: Array) -> None:
     mass = length = 0.0
     for b in range(Sizes(block).bodies):
         k = 3 * b
-        mass = max(mass, 1.0 / inverse[k])
         far = max(abs(Course(block).y_end[k]), abs(Course(block).y_end[k + 1]))
         gyration = math.sqrt(inverse[k] / inverse[k + 2])
         arm = arms[b] if arms[b] > 0.0 else widest[leader_of(LinearSystem(block), b)]
         if arm > 0.0:
             gyration = min(gyration, max(arm, far))  # the inertia of what shall not turn is no size
-        own[b, codes.BODY_LENGTH] = max(gyration, arms[b], _FAR * far) / LENGTH
+        long = max(gyration, arms[b], _FAR * far)
+        turns_only = own[b, codes.ISLAND_RATE] > 1.0
+        mass = max(mass, 1.0 / (inverse[k + 2] * long * long) if turns_only else 1.0 / inverse[k])
+        own[b, codes.BODY_LENGTH] = long / LENGTH
         own[b, codes.ISLAND_LENGTH] = own[b, codes.ISLAND_RATE] = 0.0
         length = max(length, own[b, codes.BODY_LENGTH])
     clear(arms)
@@ -79,13 +83,18 @@ def note_sizes(block: Array) -> None:
 
 @jit
 def _note_arms(block: Array) -> None:
-    """Let `loads.body_length` be the largest arm of each body's rows, points and outlines; and join bodies by rows."""
+    """Let `loads.body_length` be the largest arm of each body's rows, points and outlines; and join bodies by rows.
+
+    And the bodies' scale of rates, until it is one, the number of rows that hold their middle on the ground.
+    """
     n = Sizes(block).coordinates
     arms = Loads(block).body_length
     clear(arms)
     leader = LinearSystem(block).leader
+    own = Course(block).body_scales
     for b in range(Sizes(block).bodies):
         leader[b] = b
+        own[b, codes.ISLAND_RATE] = 0.0
     for r in range(active_rows(block, place_bodies(block, Course(block).y_end))):
         entry = Rows(block).jacobian[r]
         i, j = Rows(block).body[r, 0], Rows(block).body[r, 1]
@@ -93,6 +102,8 @@ def _note_arms(block: Array) -> None:
             across = math.sqrt(entry[3 * b] * entry[3 * b] + entry[3 * b + 1] * entry[3 * b + 1])
             if 3 * b < n and across > 0.0:
                 arms[b] = max(arms[b], abs(entry[3 * b + 2]) / across)
+                if entry[3 * b + 2] == 0.0 and 3 * (i + j - b) >= n:
+                    own[b, codes.ISLAND_RATE] += 1.0
         if 3 * i < n and 3 * j < n:
             one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)
             leader[max(one, other)] = min(one, other)
@@ -141,11 +152,20 @@ def note_rate(block: Array, least: float) -> None:
 
 
 @jit
-def moving_rate(block: Array, y: Array, dy: Array) -> float:
+def moving_rate(block: Array) -> float:
     """The scale of rates, or less where the mechanism moves far more slowly by now: so it is where forces hold others.
 
-    By the rates and accelerations in `dy`, shape (unknowns,), at `y`.
+    By the rates and accelerations at both ends of the step last tried.
     """
+    s = Stages(block)
+    most = max(_squared_rate(block, s.y_start, s.derivatives[0]), _squared_rate(block, s.y_new, s.derivatives[_LAST]))
+    rate = rate_scale(block)
+    return min(rate, max(_FAR_MORE_SLOWLY / RATE * math.sqrt(most), _FALLS * rate))
+
+
+@jit
+def _squared_rate(block: Array, y: Array, dy: Array) -> float:
+    """The largest of speeds over lengths, squared, of accelerations over lengths, and the same of angles [1/s2]."""
     n = Sizes(block).coordinates
     own = Course(block).body_scales
     most = 0.0
@@ -154,8 +174,7 @@ def moving_rate(block: Array, y: Array, dy: Array) -> float:
         speed = max(max(abs(y[n + k]), abs(y[n + k + 1])) / length, abs(y[n + k + 2]))
         pull = max(max(abs(dy[n + k]), abs(dy[n + k + 1])) / length, abs(dy[n + k + 2]))
         most = max(most, max(speed * speed, pull))
-    rate = rate_scale(block)
-    return min(rate, max(_FAR_MORE_SLOWLY / RATE * math.sqrt(most), _FALLS * rate))
+    return most
 
 
 @jit

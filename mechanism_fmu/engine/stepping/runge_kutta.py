@@ -18,6 +18,7 @@ from ..constraints.friction_rows import rubs
 from ..constraints.rows import row_count
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
+from ..dynamics.scaling import moving_rate
 from ..elementary import power
 from ..interpolation import write_dense
 from ..scales import largest_off, rate_scale, unknown_scale
@@ -74,6 +75,7 @@ def try_step(block: Array, start: float, size_: float) -> float:
         write_dense(block, h)
     if not s.drift[0] + s.drift[1] < math.inf:  # of what is no number, nothing would be left
         return math.inf
+    s.rate[0] = moving_rate(block)
     return _error_norm(block, h)
 
 

@@ -14,7 +14,6 @@ from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import slips
 from ..constraints.kinematics import place_bodies
-from ..dynamics.scaling import moving_rate
 from ..elementary import power
 from ..profiles.curves import NEARLY, within_motions
 from ..profiles.nearest import least_fit
@@ -71,8 +70,6 @@ def accurate_step(block: Array, start: float) -> float:
     """
     keep_small()
     now = Course(block)
-    s = Stages(block)
-    s.rate[0] = moving_rate(block, s.y_start, s.derivatives[0])
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     if now.counters[codes.IMPLICIT] == 1:  # what a first step is guessed from may be what is stiff
         wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(block, start))
