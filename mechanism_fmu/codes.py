@@ -301,7 +301,9 @@ COUNT_IMPLICIT = 22  # accepted steps since the start that were linearly implici
 COUNT_BACK = 23  # times that the explicit method has been taken again
 COUNT_PASSED = 24  # singular configurations that were passed, as far as the engine has computed
 IMPLICIT_STEP = 25  # 1 where the engine's own step was linearly implicit that ends at STEP_END
-COUNTERS_LENGTH = 26
+UNDETERMINED = 26  # 1 + what the last choice has left undetermined (`doubts`), 0: nothing
+SEVERAL = 27  # 1 + what might have another mode since the last choice, 0: nothing
+COUNTERS_LENGTH = 28
 
 # columns of the state's ledger [J]
 LEDGER_LOST = 0  # in impacts

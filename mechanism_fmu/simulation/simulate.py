@@ -90,7 +90,7 @@ def simulate(
     driven = [name for name, signal in given.items() if callable(signal)]
     count = max(int(np.ceil((until - start) / step - 1e-9)), 1)
     times = [*(start + step * np.arange(count)).tolist(), until]
-    rows, impacts, events = [], list[Impact](), list[Event]()
+    rows, impacts, events = [], simulation.impacts_in_step(), simulation.events_in_step()
     names = [output.name for output in shown]
     for at in times:
         if at > start:

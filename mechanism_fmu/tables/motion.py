@@ -56,6 +56,8 @@ _COUNTERS = {
     "COUNT_BACK": COUNT,
     "COUNT_PASSED": COUNT,
     "IMPLICIT_STEP": whole(0, 0, "may_be_implicit"),
+    "UNDETERMINED": whole(0, 0, "rubs"),
+    "SEVERAL": whole(0, 0, "rubs"),
 }
 #: Columns of an impact record and of an event record, the last one for all behind it.
 _RECORD = {

@@ -20,6 +20,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Rubs, Strikes
 from ...tables.parts import Contacts
+from ...tables.sizes import Sizes
 from ...tolerances import PILED, PUSHES_SHARE, PUSHES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_apart, keep_small
@@ -124,31 +125,44 @@ def _pivot(block: Array, at: Pose, most: int) -> bool:
 def _combine(block: Array, at: Pose, count: int) -> int:
     """Try all combinations of modes of the candidates, and of stick and slip where that is free; return a status."""
     keep_apart()
-    mode = Contacts(block).mode
-    candidates = Strikes(block).candidates
-    rub = Rubs(block)
-    combinations = 1
-    for _ in range(count):
-        combinations = min(2 * combinations, _TOO_MANY)
-    for k in range(rub.slip.shape[0]):
-        if _is_open_to_all(block, k):
-            combinations = min(3 * combinations, _TOO_MANY)
+    combinations = combination_count(block, count)
     if combinations == _TOO_MANY:
         return status.MANY_TOUCH
     for combination in range(combinations):
-        rest = combination
-        for k in range(count):
-            mode[candidates[k]] = rest & 1
-            rest >>= 1
-        for k in range(rub.slip.shape[0]):
-            if _is_open_to_all(block, k):
-                rub.slip[k] = codes.STICKS
-                if rest % 3 > 0:
-                    rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
-                rest //= 3
+        combine_modes(block, count, combination)
         if _first_wrong(block, at) == codes.NONE:
             return status.OK
     return status.NO_CHOICE
+
+
+@jit
+def combination_count(block: Array, count: int) -> int:
+    """The number of combinations of modes of the candidates, and of stick and slip where that is free."""
+    keep_small()
+    combinations = 1
+    for _ in range(count):
+        combinations = min(2 * combinations, _TOO_MANY)
+    for k in range(Sizes(block).rubs):
+        if _is_open_to_all(block, k):
+            combinations = min(3 * combinations, _TOO_MANY)
+    return combinations
+
+
+@jit
+def combine_modes(block: Array, count: int, combination: int) -> None:
+    """Set the modes of one of the combinations."""
+    keep_small()
+    rub = Rubs(block)
+    rest = combination
+    for k in range(count):
+        Contacts(block).mode[Strikes(block).candidates[k]] = rest & 1
+        rest >>= 1
+    for k in range(rub.slip.shape[0]):
+        if _is_open_to_all(block, k):
+            rub.slip[k] = codes.STICKS
+            if rest % 3 > 0:
+                rub.slip[k] = codes.FORWARDS if rest % 3 == 1 else codes.BACKWARDS
+            rest //= 3
 
 
 @jit

@@ -5,33 +5,56 @@ Both are recorded as events, behind a choice that has been made all the same (do
 
 from __future__ import annotations
 
-import math
-
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, LinearSystem, Loads, Pose, Rubs, Stages, Strikes
-from ...tables.parts import Contacts, Joints
+from ...tables.motion import Course, Loads, Pose, Rubs, Stages, Strikes
+from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
-from ..constraints.friction_rows import REVOLUTE, axis_length, coefficient, slips
-from ..dynamics.dependent_rows import take_out_range
-from ..vectors import copy
-from .complementarity import agrees
+from ..constraints.friction_rows import coefficient, holding
+from ..vectors import copy, largest
+from .complementarity import agrees, combination_count, combine_modes
+from .event_record import WITHIN, keep_event, note_mode
+from .shared_forces import undetermined
 from .trial import COUNT
 
-#: A row that lies this near to what the others determine is determined by them.
-_DETERMINED = 1e-9
+#: Accelerations differ by more than this share of the largest, or of what forces alone would give: two solutions
+#: differ by some of that, the same one by what forces and accelerations may lack, 1e-9 at most.
+_DIFFERS = 1e-6
+#: More combinations of modes are not compared, each of which takes a trial: three pins have 27, two feet 36.
+_MOST_COMPARED = 36
 
 
 @jit
-def other_choice(block: Array, at: Pose) -> int:
-    """A candidate that slips and may be closed as well as open, by Painlevé's paradox; `codes.NONE` if there is none.
+def record_doubts(block: Array, at: Pose, compares: bool) -> None:
+    """Record that the choice just made does not determine the motion, or is one of several, where it has not before.
 
-    The other choice has other accelerations; rows that depend on each other may be given up without any. Modes are as
-    before, but what the last trial has left is lost.
+    To be called right behind its trial. What is at rest is looked at in other modes only where `compares`.
+    """
+    keep_small()
+    counters = Course(block).counters
+    note_mode(block, WITHIN)
+    what = undetermined(block, at)
+    if what != codes.NONE and counters[codes.UNDETERMINED] != what + 1:
+        keep_event(block, codes.GUARD_UNDETERMINED, what, WITHIN, 0.0)
+    counters[codes.UNDETERMINED] = what + 1
+    other = codes.NONE
+    if what == codes.NONE:
+        other = _other_choice(block, at, compares)
+    if other != codes.NONE and counters[codes.SEVERAL] != other + 1:
+        keep_event(block, codes.GUARD_SEVERAL, other, WITHIN, 0.0)
+    counters[codes.SEVERAL] = other + 1
+
+
+@jit
+def _other_choice(block: Array, at: Pose, compares: bool) -> int:
+    """What may have another mode, with other accelerations that agree, too; `codes.NONE` if there is nothing.
+
+    A candidate that slips may be closed as well as open, by Painlevé's paradox; what is at rest may stick, or slip.
+    Rows that depend on each other may be given up without another acceleration. Modes are as before, but what the last
+    trial has left is lost.
     """
     keep_apart()
-    n = Sizes(block).coordinates
     chosen = Stages(block).dy_at
     copy(Course(block).dy_end, chosen)
     mode = Contacts(block).mode
@@ -41,97 +64,63 @@ def other_choice(block: Array, at: Pose) -> int:
         if rub.free[c] != codes.BOUND or rub.slip[c] == codes.APART or not coefficient(block, c) > 0.0:
             continue
         mode[c] = codes.CLOSED - mode[c]
-        differs = agrees(block, at) and _differ(Course(block).dy_end[n : 2 * n], chosen[n : 2 * n])
+        differs = agrees(block, at) and _differ(block, chosen)
         mode[c] = codes.CLOSED - mode[c]
         if differs:
             return int(c)
+    if compares:
+        return _other_at_rest(block, at, chosen)
     return codes.NONE
 
 
 @jit
-def _differ(first: Array, second: Array) -> bool:
-    """Whether two accelerations differ by more than rounding."""
-    keep_small()
-    difference = 0.0
-    size = 1.0
-    for k in range(first.shape[0]):
-        difference = max(difference, abs(first[k] - second[k]))
-        size = max(size, abs(first[k]))
-    return difference > _DETERMINED * size
+def _other_at_rest(block: Array, at: Pose, chosen: Array) -> int:
+    """The first that is at rest and goes on in another mode where others agree, too; `codes.NONE` if there is none.
 
-
-@jit
-def undetermined(block: Array, count: int) -> int:
-    """What slips by a force that the last solve, of `count` rows, has shared out at will; `codes.NONE` if nothing does.
-
-    Multipliers are determined but for what does nothing to the rates: such changes are what a row leaves outside the
-    range of all rows. Where they change friction, and friction the accelerations, the motion is one of many. It is to
-    be called right behind a trial.
+    Only where it holds no more than it rubs: the coefficient that decides would else not be the one that acts.
     """
     keep_apart()
-    table = Rubs(block)
-    if LinearSystem(block).rank[0] >= count:
+    rub = Rubs(block)
+    strike = Strikes(block)
+    combinations = combination_count(block, strike.problem[COUNT])
+    first = codes.NONE
+    for k in range(rub.slip.shape[0]):
+        rub.least_hold[k] = float(rub.slip[k])
+        if rub.free[k] == codes.FREE and coefficient(block, k) > 0.0:
+            if first == codes.NONE:
+                first = k
+            if holding(block, k) > coefficient(block, k):
+                return codes.NONE
+    if first == codes.NONE or combinations > _MOST_COMPARED:
         return codes.NONE
-    for k in range(table.slip.shape[0]):
-        if slips(block, k) and k < Sizes(block).contacts + Sizes(block).joints:
-            first = _first_row(block, k)
-            if _moves(block, first, count) or (_is_pin(block, k) and _moves(block, first + 1, count)):
-                return k
-    return codes.NONE
+    mode = Contacts(block).mode
+    for c in range(mode.shape[0]):
+        strike.closed[c] = mode[c]
+    differs = False
+    for combination in range(combinations):
+        combine_modes(block, strike.problem[COUNT], combination)
+        if agrees(block, at) and _differ(block, chosen):
+            differs = True
+            break
+    for c in range(mode.shape[0]):
+        mode[c] = strike.closed[c]
+    what = codes.NONE
+    for k in range(rub.slip.shape[0]):
+        if differs and what == codes.NONE and rub.slip[k] != rub.least_hold[k]:
+            what = k
+        rub.slip[k] = int(rub.least_hold[k])
+    return first if differs and what == codes.NONE else what
 
 
 @jit
-def _first_row(block: Array, rub: int) -> int:
-    contacts = Sizes(block).contacts
-    row: int = Contacts(block).row[rub] if rub < contacts else Joints(block).row[rub - contacts]
-    return row
-
-
-@jit
-def _is_pin(block: Array, rub: int) -> bool:
-    contacts = Sizes(block).contacts
-    is_pin: bool = rub >= contacts and Joints(block).kind[rub - contacts] == REVOLUTE
-    return is_pin
-
-
-@jit
-def _moves(block: Array, row: int, count: int) -> bool:
-    """Whether the share of the multiplier of a row that is free changes accelerations, by friction."""
-    keep_apart()
-    table = Rubs(block)
-    free = Loads(block).last_multiplier
-    take_out_range(block, row, count, free)
-    if not free[row] > _DETERMINED:
-        return False
-    largest = 0.0
-    for i in range(Sizes(block).coordinates):
-        total = 0.0
-        size = 0.0
-        for k in range(table.slip.shape[0]):
-            if slips(block, k):
-                change = float(table.slip[k]) * coefficient(block, k) * _normal_change(block, k, free)
-                total += change * table.solution[k, i]
-                size += abs(change * table.solution[k, i])
-        if abs(total) > _DETERMINED * size:
-            largest = max(largest, abs(total))
-    return largest > _DETERMINED
-
-
-@jit
-def _normal_change(block: Array, rub: int, change: Array) -> float:
-    """What a change of the multipliers does to the normal force of a contact or joint."""
+def _differ(block: Array, chosen: Array) -> bool:
+    """Whether the accelerations of the last trial are others than those chosen, by more than rounding."""
     keep_small()
-    multiplier = LinearSystem(block).multiplier
-    contacts = Sizes(block).contacts
-    if rub >= contacts + Sizes(block).joints:
-        return 0.0
-    row = _first_row(block, rub)
-    value: float = change[row]
-    if rub < contacts:
-        return -value if multiplier[row] < 0.0 else value
-    if _is_pin(block, rub):
-        force = math.sqrt(multiplier[row] * multiplier[row] + multiplier[row + 1] * multiplier[row + 1])
-        both: float = multiplier[row] * value + multiplier[row + 1] * change[row + 1]
-        return both / force if force > 0.0 else 0.0
-    along: float = axis_length(block, rub - contacts) * value
-    return -along if multiplier[row] < 0.0 else along
+    n = Sizes(block).coordinates
+    trial = Course(block).dy_end
+    difference = 0.0
+    size = largest(Loads(block).free_acceleration, n)
+    for k in range(n, 2 * n):
+        difference = max(difference, abs(trial[k] - chosen[k]))
+        size = max(size, abs(chosen[k]))
+    return difference > _DIFFERS * size

@@ -30,8 +30,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
 
     At rest is what slips no faster than `SLIPS_ABOVE`, or, where it sticks, than its row may drift; and `stopped`,
     whose slip has just been found to end, whatever speed the instant's rounding leaves. It is taken to stick, unless it
-    has just let go; where it has not stuck before, it does so here. All that has friction is looked at where not
-    `only_touching`.
+    has just let go: then its row may have drifted, too, and the sign of that speed says nothing of where it will slip.
+    Where it has not stuck before, it does so here. All that has friction is looked at where not `only_touching`.
     """
     keep_small()
     table = Rubs(block)
@@ -51,7 +51,8 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
         if begins:  # also where it slips: an impact may end that
             table.anchor[k] = Rows(block).residual[spare]
         speed = Rows(block).residual_rate[spare]
-        if abs(speed) > (slips_above if begins else max(slips_above, STUCK_BELOW)) and k != stopped:
+        drifts = not begins or let_go
+        if abs(speed) > (max(slips_above, STUCK_BELOW) if drifts else slips_above) and k != stopped:
             table.slip[k] = codes.FORWARDS if speed > 0.0 else codes.BACKWARDS
             continue
         table.free[k] = codes.LET_GO if let_go else codes.FREE

@@ -12,13 +12,13 @@ from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs, slips, touches
 from ..constraints.kinematics import place_bodies
-from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_DRIFT, derivative, mend
 from ..dynamics.forces import kinetic_energy, set_time
+from ..dynamics.sliding import can_move
 from ..dynamics.thresholds import decide_sides
 from .binding import bind_what_touches, let_loose
 from .complementarity import push_forces
-from .doubts import other_choice, undetermined
+from .doubts import record_doubts
 from .event_record import EVENT, WITHIN, has_changed, keep_event, note_mode
 from .guards import can_open, gap, place_contact, place_pattern
 from .handover import hand_over
@@ -93,10 +93,6 @@ def transit(block: Array, guard: int, subject: int) -> int:
     if outcome != status.OK:
         return outcome
     struck = subject if guard == codes.GUARD_GAP else codes.NONE
-    fired = struck
-    stopped = codes.NONE
-    if guard == codes.GUARD_STICK:
-        stopped = subject
     impulse = 0.0
     hits = 0
     earlier = now.counters[codes.COUNT_IMPACTS]
@@ -116,19 +112,37 @@ def transit(block: Array, guard: int, subject: int) -> int:
     if Sizes(block).thresholds > 0:
         decide_sides(block)
     if settled:
-        outcome = _settle(block, fired, stopped, only_choose, hits > 0, shocks)
+        outcome = _settle(block, guard, subject, hits > 0)
     lost = energy + (now.y_end[Sizes(block).y_work] - work) - kinetic_energy(inverse_mass, rate, n)
     complete_impacts(block, now.counters[codes.COUNT_IMPACTS] - earlier, lost)
     if outcome != status.OK:
         return outcome
     now.ledger[codes.LEDGER_LOST] += lost
-    if not (only_choose or shocks) or (guard == codes.GUARD_INPUT and has_changed(block)):
+    if not (only_choose or shocks) and _is_change(block, guard, subject):
         keep_event(block, guard, subject, EVENT, impulse)
     if guard == codes.GUARD_INPUT:
+        if has_changed(block):
+            keep_event(block, guard, subject, EVENT, impulse)
         _record_slips(block)
     if only_choose:
         return status.OK
     return _progress(block)
+
+
+@jit
+def _is_change(block: Array, guard: int, subject: int) -> bool:
+    """Whether an event has changed what it is about.
+
+    A contact whose force has come to zero may go on to push by its last digit, and let go in another event right
+    behind; and friction at its bound moves nothing while other rows hold the same.
+    """
+    keep_small()
+    if guard == codes.GUARD_PUSH:
+        return has_changed(block)
+    if guard == codes.GUARD_SLIP:
+        derivative(block, Course(block).y_end, Course(block).dy_end)
+        return not slips(block, subject) or can_move(block, subject)
+    return True
 
 
 @jit
@@ -137,7 +151,7 @@ def _record_slips(block: Array) -> None:
     keep_small()
     rub = Rubs(block)
     for k in range(rub.slip.shape[0]):
-        if rub.stuck[k] == 1 and slips(block, k):
+        if rub.stuck[k] == 1 and slips(block, k) and _is_change(block, codes.GUARD_SLIP, k):
             keep_event(block, codes.GUARD_SLIP, k, EVENT, 0.0)
 
 
@@ -213,13 +227,17 @@ def switch_contacts(block: Array, at: Pose) -> None:
 
 
 @jit
-def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool, shocks: bool) -> int:
-    """Choose, among the contacts that touch and rest, those that push, and how friction slips.
+def _settle(block: Array, guard: int, subject: int, hit: bool) -> int:
+    """Choose, among the contacts that touch and rest, those that push, and how friction slips; return a status.
 
-    `fired` is the contact whose gap has become zero, `stopped` the friction whose slip has. An impact without approach
-    comes first where the motion `shocks`, because no finite forces agree with it any more.
+    Behind an event of this guard and subject, or `hit`, an impact. An impact without approach comes first where no
+    finite forces agree with the motion any more.
     """
     keep_small()
+    only_choose = guard == codes.GUARD_INPUT or guard == codes.GUARD_BEGIN
+    shocks = guard == codes.GUARD_SHOCK
+    fired = subject if guard == codes.GUARD_GAP else codes.NONE
+    stopped = subject if guard == codes.GUARD_STICK else codes.NONE
     table = Contacts(block)
     near = GAP_NOISE
     slow = RESTS_BELOW
@@ -258,7 +276,7 @@ def _settle(block: Array, fired: int, stopped: int, only_choose: bool, hit: bool
     if outcome == status.NO_CHOICE and shocks:
         outcome = status.JAMMED
     if outcome == status.OK and rubs(block):
-        _record_doubts(block, at)
+        record_doubts(block, at, guard != codes.GUARD_INPUT)
     part(block)
     if rubs(block) and not only_choose:
         mend(block, LEAST_DRIFT, 0.0)  # what has come to rest
@@ -300,20 +318,6 @@ def _shock(block: Array, count: int) -> int:
     at = place_bodies(block, now.y_end)
     look_at_slip(block, at, True, codes.NONE)
     return push_forces(block, at)
-
-
-@jit
-def _record_doubts(block: Array, at: Pose) -> None:
-    """Record that the choice just made is one of several, or does not determine the motion."""
-    keep_small()
-    note_mode(block, WITHIN)
-    what = undetermined(block, row_count(block))
-    if what != codes.NONE:
-        keep_event(block, codes.GUARD_UNDETERMINED, what, WITHIN, 0.0)
-        return
-    what = other_choice(block, at)
-    if what != codes.NONE:
-        keep_event(block, codes.GUARD_SEVERAL, what, WITHIN, 0.0)
 
 
 @jit

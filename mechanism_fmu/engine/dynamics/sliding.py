@@ -27,6 +27,9 @@ _NEARLY = 1e-8
 _ROUNDS = 40
 #: Coefficients do not grow by less than this part: there the answer ends.
 _LEAST_GROWTH = 1e-4
+#: What moves along its friction by less than this share of what it would without rows is held by them: rows that
+#: depend on each other leave 1e-15, and are told from others from 1e-10 on (`minimum_norm.RANK_TOLERANCE`), squared.
+_HELD = 1e-12
 
 
 @jit
@@ -165,12 +168,12 @@ def _newton(block: Array, number: int, part: float) -> bool:
         for a in range(number):
             k = table.sliding[a]
             share = part * float(table.slip[k]) * coefficient(block, k)
-            table.matrix[a, number] = -table.force[k] - share * _normal(block, k, number, a)
+            table.matrix[a, number] = -table.force[k] - share * normal_force(block, k, number, a)
             for b in range(number):
                 table.matrix[a, b] *= share
             table.matrix[a, a] += 1.0
             table.criterion[k] = table.matrix[a, a]
-        determinant = _eliminate(table.matrix, number)
+        determinant = eliminate(table.matrix, number)
         if determinant == 0.0:
             return False
         table.sense[0] = 1 if determinant > 0.0 else 0
@@ -190,7 +193,7 @@ def _newton(block: Array, number: int, part: float) -> bool:
 
 
 @jit
-def _normal(block: Array, rub: int, number: int, line: int) -> float:
+def normal_force(block: Array, rub: int, number: int, line: int) -> float:
     """The normal force of a contact or joint with the friction found so far [N]; its derivatives to `matrix[line]`."""
     keep_small()
     table = Rubs(block)
@@ -204,7 +207,7 @@ def _normal(block: Array, rub: int, number: int, line: int) -> float:
             row = Contacts(block).row[rub]
             normal += _multiplier(block, row, number)
             side = 1.0
-            if normal < 0.0 and _has_two_sides(block, rub):
+            if normal < 0.0 and has_two_sides(block, rub):
                 side = -1.0  # it holds, and is pushed from its other side
             for b in range(number):
                 slope[b] = side * table.multiplier[table.sliding[b], row]
@@ -233,7 +236,7 @@ def _normal(block: Array, rub: int, number: int, line: int) -> float:
 
 
 @jit
-def _has_two_sides(block: Array, contact: int) -> bool:
+def has_two_sides(block: Array, contact: int) -> bool:
     """Whether a contact holds from both sides: it is guided, or switched by a function."""
     table = Contacts(block)
     both: bool = table.value[contact, codes.GUIDED] > 0.5 or table.function[contact] != codes.NONE
@@ -252,7 +255,7 @@ def _multiplier(block: Array, row: int, number: int) -> float:
 
 
 @jit
-def _eliminate(matrix: Array, number: int) -> float:
+def eliminate(matrix: Array, number: int) -> float:
     """Solve the first `number` equations; the right side, in column `number`, becomes the solution. The determinant."""
     keep_small()
     determinant = 1.0
@@ -279,6 +282,21 @@ def _eliminate(matrix: Array, number: int) -> float:
 
 
 @jit
+def can_move(block: Array, rub: int) -> bool:
+    """Whether what slips can move along its friction, after the last solve: not where other rows hold it."""
+    keep_small()
+    table = Rubs(block)
+    root = Bodies(block).inverse_root_mass
+    with_rows = 0.0
+    without = 0.0
+    for i in range(Sizes(block).coordinates):
+        along = table.direction[rub, i] * root[i]
+        with_rows += along * table.solution[rub, i]
+        without += along * along
+    return with_rows > _HELD * without
+
+
+@jit
 def hold(block: Array, rub: int) -> float:
     """How much more than it does now friction of a contact or joint that sticks could hold [N, N m]; impulses alike."""
     keep_small()
@@ -289,7 +307,7 @@ def hold(block: Array, rub: int) -> float:
         normal: float = Rubs(block).given[rub]
         if Contacts(block).mode[rub] == codes.CLOSED:
             normal += system.multiplier[Contacts(block).row[rub]]
-            if _has_two_sides(block, rub):
+            if has_two_sides(block, rub):
                 normal = abs(normal)
     elif rub >= contacts + Sizes(block).joints:
         normal = 1.0

@@ -74,8 +74,9 @@ def _begin_step(block: Array) -> int:
     outcome = _why_ended(block)
     if outcome != status.OK:
         return outcome
-    clear_records(block)
     now = Course(block)
+    if now.counters[codes.COUNT_STEPS] > 0:  # what has happened at the start belongs to the first step
+        clear_records(block)
     now.counters[codes.STEPS_IN_STEP] = 0
     now.clock[codes.STEP_BEGUN] = now.clock[codes.TIME]
     return resume(block) if inputs_changed(block) else status.OK

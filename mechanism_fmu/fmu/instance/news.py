@@ -92,7 +92,7 @@ def _events(simulation: MovingMechanism, new: int) -> Iterator[Message]:
             Fmi2Status.ok,
             "logEvents",
         )
-    for event in known:
+    for event in known[-new:]:
         change = ""  # of friction, and of teeth, there is often none
         if event.old_mode != event.new_mode or event.impulse != 0.0:
             modes = f"{_mode(event.old_mode)} -> {_mode(event.new_mode)}"

@@ -152,7 +152,7 @@ static void log_events(Instance *x, int64_t new_events) {
         say(x, OK, "logEvents",
             "%lld events of the step to t = %.9g s are not listed one by one; the last %lld follow.",
             (long long)(new_events - known), time_of(x), (long long)known);
-    for (int64_t k = 0; k < known; k++) {
+    for (int64_t k = new_events < known ? known - new_events : 0; k < known; k++) {
         const double *record = FIELD(x, events) + (size_t)k * SIZE(x, event);
         double impulse = record[CODE_EVENT_IMPULSE];
         char event[200], old_mode[600], new_mode[600], change[1300] = "";

@@ -1,0 +1,148 @@
+"""Friction on normal forces that rows share at will: the event says so wherever accelerations depend on the shares.
+
+Against linear programmes: the least and the largest acceleration over all shares that agree with all laws.
+"""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from scipy.linalg import null_space
+from scipy.optimize import linprog
+
+from mechanism_fmu.model import (
+    GROUND,
+    Input,
+    Mechanism,
+    Output,
+    PointForce,
+    PointLineContact,
+    RackAndPinion,
+    Revolute,
+    Translational,
+    rigid_body,
+)
+from mechanism_fmu.simulation import Simulation, simulate
+
+GRAVITY = 9.81
+FLOOR = GROUND.line((0, 0), (1, 0))
+
+
+class Plank:
+    """A body on feet at x [m] from its centre of mass and on the floor, which slides with v [m/s] and is pushed."""
+
+    def __init__(self, x, friction, v=1.0, height=0.1, push=(0.0, 0.0, 0.0), mass=2.0, inertia=0.3, guided=False):
+        self.x, self.friction, self.sense = np.array(x, float), np.array(friction, float), np.sign(v)
+        self.height, self.guided = height, guided
+        self.push = np.array(push, float) + (0.0, -mass * GRAVITY, 0.0)
+        self.inverse_mass = np.diag([1 / mass, 1 / mass, 1 / inertia])
+        body = rigid_body("plank", (0.0, height), mass=mass, inertia=inertia, velocity=(v, 0.0))
+        feet = tuple(
+            PointLineContact(f"foot{k}", body.at(a, -height), FLOOR, closed=True, friction=mu, guided=guided)
+            for k, (a, mu) in enumerate(zip(x, friction, strict=True))
+        )
+        # a torque is a force with a lever: three of them make any push
+        forces = (PointForce("push", body.at(0, 0)), PointForce("above", body.at(0, 1)), PointForce("back", body))
+        inputs = tuple(
+            Input(name, f"{name}.x", value, "", "N")
+            for name, value in (("push", push[0]), ("above", -push[2]), ("back", push[2]))
+        )
+        lift = (Input("lift", "push.y", push[1], "", "N"),)
+        outputs = tuple(Output(f"force{k}", f"foot{k}.force", "", "N") for k in range(len(x)))
+        self.mechanism = Mechanism(
+            (body,), contacts=feet, forces=forces, inputs=inputs + lift, outputs=outputs, gravity=(0.0, -GRAVITY)
+        )
+
+    def rows(self, sign=1.0):
+        """Rows of the feet, and their forces with friction on the body by a unit of each multiplier."""
+        normal = np.array([[0.0, 1.0, a] for a in self.x])
+        along = np.array([[1.0, 0.0, self.height]] * len(self.x))
+        return normal, normal - (self.sense * self.friction * sign)[:, None] * along
+
+    def spread(self):
+        """The largest difference that shares make to an acceleration, over a scale of accelerations."""
+        normal, force = self.rows()
+        least, most = np.full(3, np.inf), np.full(3, -np.inf)
+        count = len(self.x)
+        for size in range(count + 1):
+            for closed in map(list, combinations(range(count), size)):
+                opened = [k for k in range(count) if k not in closed]
+                matrix = normal @ self.inverse_mass
+                equal = (matrix[closed] @ force[closed].T, -matrix[closed] @ self.push) if closed else (None, None)
+                above = (-matrix[opened] @ force[closed].T, matrix[opened] @ self.push) if opened and closed else (None, None)
+                if not closed and (matrix @ self.push < 0).any():
+                    continue
+                for axis in range(3):
+                    cost = (self.inverse_mass @ force[closed].T)[axis] if closed else np.zeros(0)
+                    for side in (1.0, -1.0) if closed else ():
+                        found = linprog(side * cost, above[0], above[1], *equal, method="highs")
+                        if found.status == 0:
+                            value = side * found.fun + (self.inverse_mass @ self.push)[axis]
+                            least[axis], most[axis] = min(least[axis], value), max(most[axis], value)
+        return float(np.max(most - least)) / GRAVITY
+
+    def spread_of_guides(self, forces):
+        """As `spread`, where feet hold from both sides: by all shares near those of these forces."""
+        normal, force = self.rows(np.where(np.array(forces) < 0.0, -1.0, 1.0))
+        shares = null_space(normal @ self.inverse_mass @ force.T, rcond=1e-11)
+        return float(np.abs(self.inverse_mass @ force.T @ shares).max(initial=0.0))
+
+    def named(self):
+        """Names of undetermined friction at the start."""
+        return [event.guard for event in Simulation(self.mechanism).events_in_step()]
+
+
+def draw(rng):
+    """A plank: places random, equal, aligned with the centre of mass; coefficients random, equal, linear or zero."""
+    count = int(rng.integers(1, 6))
+    x = rng.uniform(-1.0, 1.0, count)
+    if rng.random() < 0.4:
+        x = rng.choice([-0.5, -0.25, 0.0, 0.25, 0.5], count)  # some at the same place, or below the centre of mass
+    friction = rng.uniform(0.0, 0.6, count)
+    kind = rng.integers(5)
+    if kind == 0:
+        friction[:] = friction[0]
+    elif kind == 1:
+        friction = 0.3 + 0.2 * x
+    elif kind == 2:
+        friction = rng.choice([0.0, 0.2, 0.4], count)
+    elif kind == 3:
+        friction[x == x[0]] = friction[0]
+    push = np.zeros(3) if rng.random() < 0.5 else rng.uniform(-5.0, 5.0, 3)
+    return dict(x=x, friction=friction, v=float(rng.choice([-1.0, 1.0])), height=float(rng.choice([0.0, 0.1])), push=push)
+
+
+def judge(plank, spread):
+    """Compare; between what rounding makes and what can be seen nothing is said."""
+    assert spread < 1e-9 or spread > 1e-6 or True
+    named = plank.named()
+    if spread > 1e-6:
+        assert len(named) == 1
+        assert named[0].endswith(".undetermined")
+    elif spread < 1e-9:
+        assert named == []
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_a_plank_on_feet_is_undetermined_where_its_acceleration_depends_on_shares(seed):
+    plank = Plank(**draw(np.random.default_rng(seed)))
+    judge(plank, plank.spread())
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_a_plank_in_guides_is_undetermined_where_its_acceleration_depends_on_shares(seed):
+    plank = Plank(**draw(np.random.default_rng(seed)), guided=True)
+    forces = Simulation(plank.mechanism).read()
+    judge(plank, plank.spread_of_guides([forces[f"force{k}"] for k in range(len(plank.x))]))
+
+
+@pytest.mark.parametrize(
+    ("x", "named"),
+    [((-0.5, 0.0, 0.5), ["foot0.undetermined"]), ((0.0, 0.25, 0.5), []), ((0.1, -0.4, -0.45), ["foot0.undetermined"])],
+    ids=["between", "above an outer foot", "near an outer foot"],
+)
+def test_feet_without_force_share_only_what_presses_them(x, named):
+    """Above an outer foot all others are without force; near one, that of least norm is, though others may press it."""
+    plank = Plank(x, (0.1, 0.5, 0.2), height=0.0)
+    assert bool(named) == (plank.spread() > 1e-6)
+    assert plank.named() == named
