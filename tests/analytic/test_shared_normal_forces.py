@@ -34,7 +34,7 @@ class Plank:
     def __init__(self, x, friction, v=1.0, height=0.1, push=(0.0, 0.0, 0.0), mass=2.0, inertia=0.3, guided=False):
         self.x, self.friction, self.sense = np.array(x, float), np.array(friction, float), np.sign(v)
         self.height, self.guided = height, guided
-        self.push = np.array(push, float) + (0.0, -mass * GRAVITY, 0.0)
+        self.push = np.array(push, float) - np.array([0.0, mass * GRAVITY, 0.0])
         self.inverse_mass = np.diag([1 / mass, 1 / mass, 1 / inertia])
         body = rigid_body("plank", (0.0, height), mass=mass, inertia=inertia, velocity=(v, 0.0))
         feet = tuple(
@@ -69,7 +69,11 @@ class Plank:
                 opened = [k for k in range(count) if k not in closed]
                 matrix = normal @ self.inverse_mass
                 equal = (matrix[closed] @ force[closed].T, -matrix[closed] @ self.push) if closed else (None, None)
-                above = (-matrix[opened] @ force[closed].T, matrix[opened] @ self.push) if opened and closed else (None, None)
+                above = (
+                    (-matrix[opened] @ force[closed].T, matrix[opened] @ self.push)
+                    if opened and closed
+                    else (None, None)
+                )
                 if not closed and (matrix @ self.push < 0).any():
                     continue
                 for axis in range(3):
@@ -109,12 +113,12 @@ def draw(rng):
     elif kind == 3:
         friction[x == x[0]] = friction[0]
     push = np.zeros(3) if rng.random() < 0.5 else rng.uniform(-5.0, 5.0, 3)
-    return dict(x=x, friction=friction, v=float(rng.choice([-1.0, 1.0])), height=float(rng.choice([0.0, 0.1])), push=push)
+    v, height = float(rng.choice([-1.0, 1.0])), float(rng.choice([0.0, 0.1]))
+    return {"x": x, "friction": friction, "v": v, "height": height, "push": push}
 
 
 def judge(plank, spread):
     """Compare; between what rounding makes and what can be seen nothing is said."""
-    assert spread < 1e-9 or spread > 1e-6 or True
     named = plank.named()
     if spread > 1e-6:
         assert len(named) == 1
@@ -146,3 +150,54 @@ def test_feet_without_force_share_only_what_presses_them(x, named):
     plank = Plank(x, (0.1, 0.5, 0.2), height=0.0)
     assert bool(named) == (plank.spread() > 1e-6)
     assert plank.named() == named
+
+
+def test_the_start_is_told_to_whoever_looks_and_once():
+    """Right behind the start, behind the first step but no later one, and in the events of a run."""
+    plank = Plank((-0.5, 0.0, 0.5), (0.1, 0.6, 0.2)).mechanism
+    simulation = Simulation(plank)
+    for named in (["foot0.undetermined"], ["foot0.undetermined"], []):
+        assert [event.guard for event in simulation.events_in_step()] == named
+        simulation.advance(simulation.time + 0.05)
+    run = simulate(plank, until=0.2, step=0.01, inputs={"push": lambda t: t})
+    assert [(event.guard, event.time) for event in run.events] == [("foot0.undetermined", 0.0)]
+    assert run.statistics.events == 1
+
+
+def test_a_plank_that_begins_to_slide_does_so_once():
+    """Foot after foot comes to its bound, of the shares of least norm, while the others hold: that moves nothing."""
+    plank = Plank((-0.5, 0.0, 0.5), (0.1, 0.6, 0.2), v=0.0, height=0.0).mechanism
+    run = simulate(plank, until=1.0, step=0.01, inputs={"push": lambda t: 20.0 * t})
+    assert [event.guard for event in run.events] == ["foot0.undetermined", "foot1.slips"]
+
+
+@pytest.mark.parametrize("friction", [(0.3, 0.3), (0.3, 0.1)], ids=["equal", "unequal"])
+def test_two_guides_of_a_slider_have_a_sum(friction):
+    """With one coefficient the sum of their forces is all that counts."""
+    slider = rigid_body("slider", (0, 0), mass=2.0, inertia=0.1, velocity=(1.0, 0.0))
+    guides = tuple(
+        Translational(f"guide{k}", GROUND.line((0, y), (1, 0)), slider.line((0, y), (1, 0)), friction=mu)
+        for k, (y, mu) in enumerate(zip((0.1, -0.1), friction, strict=True))
+    )
+    outputs = (Output("v", "slider.x_rate", "", "m/s"),)
+    simulation = Simulation(Mechanism((slider,), guides, gravity=(0.0, -GRAVITY), outputs=outputs))
+    named = [event.guard for event in simulation.events_in_step()]
+    assert named == ([] if friction[0] == friction[1] else ["guide0.undetermined"])
+    simulation.advance(0.1)
+    assert simulation.read()["v"] == pytest.approx(1.0 - sum(friction) / 2 * GRAVITY * 0.1, abs=1e-12)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+def test_a_rack_that_presses_a_block_on_its_table_shares_its_weight(friction):
+    """The pinion on a fixed hinge holds the rack from above as the table does from below."""
+    block = rigid_body("block", (0, 0), mass=1.0, inertia=0.01, velocity=(1.0, 0.0))
+    pinion = rigid_body("pinion", (0, 0.05), mass=1e-3, inertia=1e-6, speed=20.0)
+    joints = (
+        Translational("table", GROUND.line((0, 0), (1, 0)), block.line((0, 0), (1, 0)), friction=friction),
+        Revolute("axle", pinion.at(0, 0), GROUND.at(0, 0.05)),
+        RackAndPinion(
+            "rack", block.line((0, 0), (1, 0)), pinion.at(0, 0), block.at(0, 0), radius_j=0.05, angle_j=-np.pi / 2
+        ),
+    )
+    simulation = Simulation(Mechanism((block, pinion), joints, gravity=(0.0, -GRAVITY)))
+    assert [event.guard for event in simulation.events_in_step()] == (["table.undetermined"] if friction else [])

@@ -13,7 +13,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.kinds import FORCES, JOINTS
 from ...tables.motion import Course, Pose, Rows, Rubs, Strikes
-from ...tables.parts import Contacts, Forces, Joints, Options
+from ...tables.parts import Contacts, Forces, Joints, Options, Ports
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from .entries import begin_row
@@ -93,11 +93,25 @@ def touches(block: Array, rub: int) -> bool:
     """Whether a contact or joint has friction now: a contact is closed, or has been given an impulse."""
     keep_small()
     if not coefficient(block, rub) > 0.0:
-        return False
+        return _is_rising(block, rub)
     if rub >= Sizes(block).contacts:
         return True
     closed: bool = Contacts(block).mode[rub] == codes.CLOSED
     return closed or Rubs(block).given[rub] > 0.0
+
+
+@jit
+def _is_rising(block: Array, rub: int) -> bool:
+    """Whether an input with a slope raises the torque of a brake, which may be zero at this instant alone."""
+    keep_small()
+    ports = Ports(block)
+    rises = False
+    if Course(block).counters[codes.RAMPING] != 0:
+        element = rub - Sizes(block).contacts - Sizes(block).joints
+        for k in range(ports.inputs.shape[0]):
+            writes = ports.input_force[k] == element and Forces(block).kind[element] == BRAKE
+            rises = rises or (writes and ports.input_factor[k] * ports.held_slopes[k] > 0.0)
+    return rises
 
 
 @jit

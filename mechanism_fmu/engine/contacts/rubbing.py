@@ -42,7 +42,7 @@ def look_at_slip(block: Array, at: Pose, only_touching: bool, stopped: int) -> N
     for k in range(table.slip.shape[0]):
         let_go = table.free[k] == codes.LET_GO
         table.free[k] = codes.BOUND
-        if not coefficient(block, k) > 0.0 or (only_touching and not touches(block, k)):
+        if not (touches(block, k) or (coefficient(block, k) > 0.0 and not only_touching)):
             continue
         begins = table.slip[k] != codes.STICKS
         if begins:

@@ -39,8 +39,9 @@ class News:
         """Impacts and events of the step, those that the buffers lost, what was passed, and what has begun to pull."""
         counters = simulation.counters
         if counters.item(codes.COUNT_IMPACTS) != self._impacts:
-            self._impacts = counters.item(codes.COUNT_IMPACTS)
-            yield from _impacts(simulation)
+            new = counters.item(codes.COUNT_IMPACTS) - self._impacts
+            self._impacts += new
+            yield from _impacts(simulation, new)
         if counters.item(codes.COUNT_EVENTS) != self._events:
             new = counters.item(codes.COUNT_EVENTS) - self._events
             self._events += new
@@ -72,8 +73,8 @@ class News:
                     yield pulls(contact, time)
 
 
-def _impacts(simulation: MovingMechanism) -> Iterator[Message]:
-    for impact in simulation.impacts_in_step():
+def _impacts(simulation: MovingMechanism, new: int) -> Iterator[Message]:
+    for impact in simulation.impacts_in_step(new):
         yield Message(
             f"Impact on {impact.contact} at t = {impact.time:.12g} s: closing speed {impact.closing_speed:.6g} m/s, "
             f"impulse {impact.impulse:.6g} N.s.",
@@ -92,7 +93,7 @@ def _events(simulation: MovingMechanism, new: int) -> Iterator[Message]:
             Fmi2Status.ok,
             "logEvents",
         )
-    for event in known[-new:]:
+    for event in known[-new:]:  # of the first step, those of the start are logged
         change = ""  # of friction, and of teeth, there is often none
         if event.old_mode != event.new_mode or event.impulse != 0.0:
             modes = f"{_mode(event.old_mode)} -> {_mode(event.new_mode)}"

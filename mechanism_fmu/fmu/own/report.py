@@ -106,9 +106,10 @@ def report_on(text: str) -> FileReport:
     with suppress(Exception):  # a mistake that has been said
         found |= _facts(model)
         if not mistakes:
-            started, refused = _started(model, path)
+            started, refused, doubts = _started(model, path)
             found |= started
             mistakes += refused
+            warnings += doubts
     return FileReport(text, **found, warnings=tuple(warnings), mistakes=tuple(mistakes))
 
 
@@ -129,15 +130,25 @@ def _facts(model: Model) -> dict[str, Any]:
     }
 
 
-def _started(model: Model, path: Path) -> tuple[dict[str, Any], list[str]]:
-    """What assembly makes of it, and why it cannot start."""
+#: What the laws of friction leave open at the start, by the end of the event's name.
+_DOUBTS = {
+    "undetermined": "the motion depends on how redundant rows share the normal force of '{}', which nothing determines: "
+    "the shares of least norm are taken. Leave out a row that another one repeats, or give equal coefficients to what "
+    "shares the force.",
+    "several": "several motions agree with the friction of '{}' at the start, of which one is taken: "
+    "mechanism_fmu.simulation.friction_solutions shows all.",
+}
+
+
+def _started(model: Model, path: Path) -> tuple[dict[str, Any], list[str], list[str]]:
+    """What assembly makes of it, why it cannot start, and what is open about the motion that begins."""
     mechanism = model.build(model.values())
     try:
         with explained(path), start_explained():
             moving = MovingMechanism(mechanism)
             free = freedoms(mechanism, library_of() if has_libraries() else None)
     except MechanismError as error:
-        return {"picture": picture_of(error)}, [str(error)]
+        return {"picture": picture_of(error)}, [str(error)], []
     q = moving.field("y_end")[: 3 * len(mechanism.bodies)].reshape(-1, 3)
     poses = {body.name: row for body, row in zip(mechanism.bodies, q, strict=True)}
     found = {
@@ -147,7 +158,8 @@ def _started(model: Model, path: Path) -> tuple[dict[str, Any], list[str]]:
         "redundant": free.redundant,
         "singular": free.singular,
     }
-    return found, []
+    guards = (event.guard.rpartition(".") for event in moving.events_in_step())
+    return found, [], [_DOUBTS[what].format(part) for part, _, what in guards if what in _DOUBTS]
 
 
 def _bodies(mechanism: Mechanism, poses: Mapping[str, np.ndarray[Any, np.dtype[Any]]]) -> tuple[BodyReport, ...]:

@@ -134,9 +134,13 @@ static void name_event(int guard, int subject, char *text, size_t size) {
     else snprintf(text, size, "%s.%s", model.contacts[subject].name, of_contact);
 }
 
-static void log_impacts(Instance *x) {
+/* The place of the first of the new records of those known: those of the start stay for the first step. */
+static int64_t first_new(int64_t new_ones, int64_t known) { return new_ones < known ? known - new_ones : 0; }
+
+static void log_impacts(Instance *x, int64_t new_impacts) {
     size_t columns = SIZE(x, record);
-    for (int64_t k = 0; k < COUNTERS(x)[CODE_COUNT_IN_STEP]; k++) {
+    int64_t known = COUNTERS(x)[CODE_COUNT_IN_STEP];
+    for (int64_t k = first_new(new_impacts, known); k < known; k++) {
         const double *record = FIELD(x, impacts) + (size_t)k * columns;
         say(x, OK, "logEvents", "Impact on %s at t = %.12g s: closing speed %.6g m/s, impulse %.6g N.s.",
             model.contacts[(int)record[CODE_RECORD_CONTACT]].name, record[CODE_RECORD_TIME],
@@ -152,7 +156,7 @@ static void log_events(Instance *x, int64_t new_events) {
         say(x, OK, "logEvents",
             "%lld events of the step to t = %.9g s are not listed one by one; the last %lld follow.",
             (long long)(new_events - known), time_of(x), (long long)known);
-    for (int64_t k = new_events < known ? known - new_events : 0; k < known; k++) {
+    for (int64_t k = first_new(new_events, known); k < known; k++) {
         const double *record = FIELD(x, events) + (size_t)k * SIZE(x, event);
         double impulse = record[CODE_EVENT_IMPULSE];
         char event[200], old_mode[600], new_mode[600], change[1300] = "";
@@ -176,7 +180,8 @@ static void log_passed(Instance *x, int64_t count) {
 
 void log_news(Instance *x) {
     const int64_t *counters = COUNTERS(x);
-    if (counters[CODE_COUNT_IMPACTS] != x->logged_impacts) log_impacts(x);
+    if (counters[CODE_COUNT_IMPACTS] != x->logged_impacts)
+        log_impacts(x, counters[CODE_COUNT_IMPACTS] - x->logged_impacts);
     if (counters[CODE_COUNT_EVENTS] != x->logged_events) log_events(x, counters[CODE_COUNT_EVENTS] - x->logged_events);
     if (counters[CODE_COUNT_LOST] != x->logged_lost)
         say(x, WARNING, "logStatusWarning",
