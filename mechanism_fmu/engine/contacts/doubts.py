@@ -8,18 +8,19 @@ from __future__ import annotations
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Loads, Pose, Rubs, Stages, Strikes
-from ...tables.parts import Contacts
+from ...tables.parts import Bodies, Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import coefficient, holding
+from ..constraints.rows import row_count
 from ..vectors import copy, largest
-from .complementarity import agrees, combination_count, combine_modes
+from .complementarity import agrees, combination_count, combine_modes, push_tolerance
 from .event_record import WITHIN, keep_event, note_mode
 from .shared_forces import undetermined
 from .trial import COUNT
 
-#: Accelerations differ by more than this share of the largest, or of what forces alone would give: two solutions
-#: differ by some of that, the same one by what forces and accelerations may lack, 1e-9 at most.
+#: Accelerations differ by more than this share of the largest, or of what forces alone would give, beyond what a force
+#: may lack: two solutions differ by much of that, the same one by some 1e-9.
 _DIFFERS = 1e-6
 #: More combinations of modes are not compared, each of which takes a trial: three pins have 27, two feet 36.
 _MOST_COMPARED = 36
@@ -123,4 +124,5 @@ def _differ(block: Array, chosen: Array) -> bool:
     for k in range(n, 2 * n):
         difference = max(difference, abs(trial[k] - chosen[k]))
         size = max(size, abs(chosen[k]))
-    return difference > _DIFFERS * size
+    lacking = push_tolerance(block, row_count(block)) * largest(Bodies(block).inverse_mass, n)
+    return difference > _DIFFERS * size + lacking
