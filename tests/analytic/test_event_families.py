@@ -7,7 +7,7 @@ from mechanism_fmu.model import GROUND, Brake, Input, Mechanism, Revolute, rigid
 from mechanism_fmu.simulation import Simulation
 
 #: Draws that the tests compare; all hundred: python -m tests.analytic.event_families 100.
-DRAWS = {"belt": 10, "chain": 3, "brake": 10, "cam": 10}
+DRAWS = {"belt": 6, "chain": 3, "brake": 6, "cam": 6}
 
 
 @pytest.mark.parametrize(("name", "seed"), [(name, seed) for name in FAMILIES for seed in range(DRAWS[name])])

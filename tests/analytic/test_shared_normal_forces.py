@@ -26,6 +26,8 @@ from mechanism_fmu.simulation import Simulation, simulate
 
 GRAVITY = 9.81
 FLOOR = GROUND.line((0, 0), (1, 0))
+#: Of the accelerations in the sum whose extremes are sought: where any of them varies, the sum does.
+WEIGHTS = np.array([1.0, 0.7, 0.31])
 
 
 class Plank:
@@ -60,30 +62,22 @@ class Plank:
         return normal, normal - (self.sense * self.friction * sign)[:, None] * along
 
     def spread(self):
-        """The largest difference that shares make to an acceleration, over a scale of accelerations."""
+        """The difference that shares make to a sum of accelerations with any weights, as a share of gravity."""
         normal, force = self.rows()
-        least, most = np.full(3, np.inf), np.full(3, -np.inf)
+        values = []
         count = len(self.x)
-        for size in range(count + 1):
+        matrix = normal @ self.inverse_mass
+        for size in range(1, count + 1):
             for closed in map(list, combinations(range(count), size)):
                 opened = [k for k in range(count) if k not in closed]
-                matrix = normal @ self.inverse_mass
-                equal = (matrix[closed] @ force[closed].T, -matrix[closed] @ self.push) if closed else (None, None)
-                above = (
-                    (-matrix[opened] @ force[closed].T, matrix[opened] @ self.push)
-                    if opened and closed
-                    else (None, None)
-                )
-                if not closed and (matrix @ self.push < 0).any():
-                    continue
-                for axis in range(3):
-                    cost = (self.inverse_mass @ force[closed].T)[axis] if closed else np.zeros(0)
-                    for side in (1.0, -1.0) if closed else ():
-                        found = linprog(side * cost, above[0], above[1], *equal, method="highs")
-                        if found.status == 0:
-                            value = side * found.fun + (self.inverse_mass @ self.push)[axis]
-                            least[axis], most[axis] = min(least[axis], value), max(most[axis], value)
-        return float(np.max(most - least)) / GRAVITY
+                equal = (matrix[closed] @ force[closed].T, -matrix[closed] @ self.push)
+                above = (-matrix[opened] @ force[closed].T, matrix[opened] @ self.push) if opened else (None, None)
+                for side in (1.0, -1.0):
+                    cost = side * WEIGHTS @ self.inverse_mass @ force[closed].T
+                    found = linprog(cost, above[0], above[1], *equal, method="highs")
+                    if found.status == 0:
+                        values.append(side * found.fun)
+        return (max(values) - min(values)) / GRAVITY if values else 0.0
 
     def spread_of_guides(self, forces):
         """As `spread`, where feet hold from both sides: by all shares near those of these forces."""
@@ -127,7 +121,7 @@ def judge(plank, spread):
         assert named == []
 
 
-@pytest.mark.parametrize("seed", range(150))
+@pytest.mark.parametrize("seed", range(60))
 def test_a_plank_on_feet_is_undetermined_where_its_acceleration_depends_on_shares(seed):
     plank = Plank(**draw(np.random.default_rng(seed)))
     judge(plank, plank.spread())

@@ -132,9 +132,9 @@ def _facts(model: Model) -> dict[str, Any]:
 
 #: What the laws of friction leave open at the start, by the end of the event's name.
 _DOUBTS = {
-    "undetermined": "the motion depends on how redundant rows share the normal force of '{}', which nothing determines: "
-    "the shares of least norm are taken. Leave out a row that another one repeats, or give equal coefficients to what "
-    "shares the force.",
+    "undetermined": "the motion depends on how redundant rows share the normal force of '{}', which nothing "
+    "determines: the shares of least norm are taken. Leave out a row that another one repeats, or give equal "
+    "coefficients to what shares the force.",
     "several": "several motions agree with the friction of '{}' at the start, of which one is taken: "
     "mechanism_fmu.simulation.friction_solutions shows all.",
 }
