@@ -46,6 +46,8 @@ _ACCURACY = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
 #: Times of one event agree within this share of the run: both integrate to 1e-9 or better, and what follows of an
 #: event amplifies that.
 TIMES_AGREE = 1e-6
+#: So many looks for each step of scipy's show what begins and ends within one; less than this is rounding [m/s, N].
+_LOOKS, _NOISE = 8, 1e-9
 #: A contact that would part more slowly than this after an impact stays closed [m/s]: docs/explanation/friction.md.
 _STAYS_CLOSED = 1e-6
 
@@ -120,14 +122,7 @@ class Blocks:
         slip = np.where((slip == 0) & (np.abs(needed) > self.holds(t)), -np.sign(needed), slip)
         found: Events = []
         while t < until:
-            end = solve_ivp(
-                lambda t, y: self._rates(t, y, slip),
-                (t, until),
-                y,
-                events=[self._end_of(k, slip[k]) for k in range(count)],
-                max_step=until / 300,
-                **_ACCURACY,
-            )
+            end = self._go_on(t, until, y, slip)
             t, y = end.t[-1], end.y[:, -1].copy()
             for k in range(count):
                 if not len(end.t_events[k]):
@@ -138,6 +133,26 @@ class Blocks:
                 needed = self.needed(t, y)[k]
                 slip[k] = 0.0 if not stuck and abs(needed) <= self.holds(t)[k] else -np.sign(needed)
         return found
+
+    def _go_on(self, t: float, until: float, y: np.ndarray, slip: np.ndarray) -> Any:
+        """Integrate in these modes; in shorter steps where a value is found to dip below zero within one."""
+        ends = [self._end_of(k, slip[k]) for k in range(len(slip))]
+        longest = until / 300
+        while True:
+            end = solve_ivp(
+                lambda t, y: self._rates(t, y, slip),
+                (t, until),
+                y,
+                events=ends,
+                dense_output=True,
+                max_step=longest,
+                **_ACCURACY,
+            )
+            looks = np.linspace(t, end.t[-1], _LOOKS * len(end.t))[_LOOKS:-_LOOKS]
+            dips = any(left(look, end.sol(look)) < -_NOISE for look in looks for left in ends)
+            if not dips or longest < until / 1e5:
+                return end
+            longest /= 20
 
     def _rates(self, t: float, y: np.ndarray, slip: np.ndarray) -> np.ndarray:
         a = (self.springs(y) - slip * self.rubs(t)) / self.mass
