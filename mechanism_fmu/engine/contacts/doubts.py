@@ -5,6 +5,8 @@ Both are recorded as events, behind a choice that has been made all the same (do
 
 from __future__ import annotations
 
+import math
+
 from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Course, Loads, Pose, Rubs, Stages, Strikes
@@ -115,10 +117,15 @@ def _other_at_rest(block: Array, at: Pose, chosen: Array) -> int:
 
 @jit
 def _differ(block: Array, chosen: Array) -> bool:
-    """Whether the accelerations of the last trial are others than those chosen, by more than rounding."""
+    """Whether the accelerations of the last trial are others than those chosen, by more than rounding.
+
+    Not where no forces agree with friction: the trial has left it out then, and no power of it.
+    """
     keep_small()
     n = Sizes(block).coordinates
     trial = Course(block).dy_end
+    if math.isnan(trial[Sizes(block).y_loss]):
+        return False
     difference = 0.0
     size = largest(Loads(block).free_acceleration, n)
     for k in range(n, 2 * n):
