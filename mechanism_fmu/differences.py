@@ -172,10 +172,11 @@ class _Column:
         if self.jump.rows:
             error = np.maximum(error, 0.5 * (np.abs(self.jump.best) + self.jump.error))
         if len(self.jump.rows) > 3:  # of a kink within the last steps, what is left does not fall as the steps' cubes
-            left = [np.abs(row[1]) for row in self.jump.rows[-3:]]
-            stays = (left[2] > 0.25 * left[1]) | (left[1] > 0.25 * left[0])
-            stays &= np.maximum(left[1], left[2]) > 8.0 * np.finfo(np.float64).eps * np.abs(self.middle) / self.step
-            error = np.where(stays, np.maximum(error, _KINK * np.maximum(left[1], left[2])), error)
+            left = [np.abs(row[1]) for row in self.jump.rows[1:]]
+            last = np.maximum(left[-2], left[-1])
+            stays = (left[-1] > 0.25 * left[-2]) | (left[-2] > 0.25 * left[-3])
+            stays &= last <= np.maximum(left[0], left[1])  # of noise, it grows as steps become less
+            error = np.where(stays, np.maximum(error, _KINK * last), error)
         return error
 
     @property
