@@ -11,10 +11,10 @@ import math
 from .. import codes
 from ..tables.declare import Array
 from ..tables.kinds import JOINTS
-from ..tables.motion import Course, Rows
+from ..tables.motion import Course, Rows, Stages
 from ..tables.parts import Contacts, Forces, Functions, Joints
 from ..tables.sizes import Sizes
-from .compiler.subset import jit, keep_small
+from .compiler.subset import jit, keep_apart, keep_small
 
 _REVOLUTE = JOINTS.number("revolute")
 
@@ -165,18 +165,25 @@ def largest_off(block: Array, values: Array, count: int) -> float:
 
 
 @jit
-def unknown_scale(block: Array, i: int, rate: float) -> float:
-    """Scale of an unknown, where the mechanism moves at a rate; of own states, which have none, 1."""
+def write_scales(block: Array, rate: float, step: float) -> None:
+    """Write `stages.scale`: of every unknown, where the mechanism moves at a rate; 1 of own states, which have none.
+
+    In a step [s] longer than the time of that rate, a speed counts that leads as far as what counts of places.
+    """
+    keep_apart()
     n = Sizes(block).coordinates
-    work = Sizes(block).y_work
-    if i >= Sizes(block).y_alpha:
-        return 1.0
-    if i >= work:
-        length = length_scale(block)
-        mass: float = Course(block).scales[codes.SCALE_MASS]
-        return mass * length * rate * rate * length
-    body = (i if i < n else i - n) // 3
-    if i % 3 == 2:  # n is a multiple of 3
-        return rate if i >= n else 1.0
-    unit = float(Course(block).body_scales[body, codes.ISLAND_LENGTH])
-    return unit * rate if i >= n else unit
+    own = Course(block).body_scales
+    scale = Stages(block).scale
+    speed = rate / max(1.0, step * rate)
+    for k in range(0, n, 3):
+        unit = own[k // 3, codes.ISLAND_LENGTH]
+        scale[k] = scale[k + 1] = unit
+        scale[k + 2] = 1.0
+        scale[n + k] = scale[n + k + 1] = unit * speed
+        scale[n + k + 2] = speed
+    length = length_scale(block)
+    mass = Course(block).scales[codes.SCALE_MASS]
+    for i in range(Sizes(block).y_work, Sizes(block).y_alpha):
+        scale[i] = mass * length * rate * rate * length
+    for i in range(Sizes(block).y_alpha, Sizes(block).unknowns):
+        scale[i] = 1.0

@@ -234,8 +234,8 @@ class Loads(Table):
 class Stages(Table, prefix="stage_"):
     """Scratch of one Runge-Kutta step.
 
-    `tried`: start and size of the one last tried [s]; `rate` at which the mechanism moves there, in scale; `drift`: the
-    most that an active row is off at its end, and a rate; `independence` of the rows at each of its stages, of which
+    `tried`: start and size of the one last tried [s]; the `scale` of each unknown; `drift`: the most that an active row
+    is off at its end, and a rate, in scale, and as they are; `independence` of the rows at each of its stages, of which
     `stage` is the one computed last; `looks_stiff` says how stiff an explicit one found the motion; `jams` is 1 where
     forces and friction did not agree at a stage; `stiffest` is the unknown that limited the steps, once that was asked;
     `behind` are points of the motion before y_start, with their derivatives (see `passing`).
@@ -243,8 +243,8 @@ class Stages(Table, prefix="stage_"):
 
     derivatives = real(METHOD.stages, "unknowns", name="derivatives", work=True)
     tried = real(2, name="tried", work=True)
-    rate = real(1, work=True)
-    drift = real(2, work=True)
+    scale = real("unknowns", work=True)
+    drift = real(4, work=True)
     y_start = real("unknowns", name="y_start", work=True)
     y_stage = real("unknowns", name="y_stage", work=True)
     y_new = real("unknowns", name="y_new", work=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import uuid
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -123,7 +122,7 @@ def write_container(plan: Plan, parts: Mapping[str, Part], path: Path) -> Path:
         }
         entries["modelDescription.xml"] = to_bytes(description)
         entries["resources/container.json"] = json.dumps(configuration, indent=1).encode()
-        write_archive(entries, path, zipfile.ZIP_DEFLATED)
+        write_archive(entries, path, compressed=True)
     except OSError as error:
         raise UsageError(f"'{path}' cannot be written: {error}.") from error
     return path

@@ -16,14 +16,14 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import LEVELS, Course, LinearSystem, Sensitivity
+from ...tables.motion import LEVELS, Course, LinearSystem, Sensitivity, Stages
 from ...tables.parts import Ports
 from ...tables.sizes import Sizes
 from ..compiler.subset import entry, jit, keep_apart, keep_small
 from ..constraints.friction_rows import rubs
 from ..dynamics.linear_solve import KEEP
 from ..outputs import read_outputs
-from ..scales import rate_scale, unknown_scale
+from ..scales import rate_scale, write_scales
 from ..vectors import copy
 from .indicators import evaluate
 
@@ -75,12 +75,13 @@ def _first_step(block: Array) -> tuple[float, bool]:
     table = Sensitivity(block)
     step = math.inf
     moved = False
+    write_scales(block, rate_scale(block), 0.0)
     for k in range(table.inputs.shape[0]):
         if table.input_seed[k] != 0.0:
             step = min(step, (_PART * abs(table.inputs[k]) + _LEAST_INPUT) / abs(table.input_seed[k]))
     for k in range(table.states.shape[0]):
         if table.state_seed[k] != 0.0:
-            step = min(step, _OF_STATES * unknown_scale(block, k, rate_scale(block)) / abs(table.state_seed[k]))
+            step = min(step, _OF_STATES * Stages(block).scale[k] / abs(table.state_seed[k]))
             moved = True
     return step if step < math.inf else 1.0, moved
 

@@ -12,8 +12,8 @@ from ..constraints.rows import row_count
 from ..dynamics.acceleration import LEAST_INDEPENDENCE, MOST_DRIFT, MOST_RATE_DRIFT, close_again, derivative
 from ..interpolation import QUINTIC, has_gains, write_motion
 from ..profiles.nearest import settle_contact_points
-from ..scales import largest_off, rate_scale
-from ..vectors import copy
+from ..scales import rate_scale
+from ..vectors import copy, largest
 from .singular import independence
 
 #: Rows that have drifted by less than so many times `MOST_DRIFT` are closed by one correction, and no further look.
@@ -33,8 +33,8 @@ def closes_step(block: Array) -> bool:
     if not near or has_gains(block) or now.counters[codes.IMPLICIT] == 1:
         return False
     count = row_count(block)
-    stands = largest_off(block, Rows(block).residual, count) == drift[0]
-    if not (stands and largest_off(block, Rows(block).residual_rate, count) == drift[1]):
+    stands = largest(Rows(block).residual, count) == drift[2]
+    if not (stands and largest(Rows(block).residual_rate, count) == drift[3]):
         derivative(block, now.y_end, now.dy_end)  # something else has been evaluated since
     if not independence(block) > LEAST_INDEPENDENCE:
         return False

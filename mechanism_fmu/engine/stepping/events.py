@@ -48,6 +48,8 @@ from .step_size import smallest_step
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
 _NEWTON_STEPS = 12
+#: So many times less exactly the instant of an impact is found whose gap is less than `ROOT_TOLERANCE` of the length.
+_OF_NO_WAY = 100.0
 #: How closely it is found on the dense output where a feature ends, in parts of a step; `refine_end` does the rest.
 _HANDS_OVER_WITHIN = 1e-12
 #: What a guard does at the start of a step, as the fraction at which it fires: nothing yet; nothing in this step; it
@@ -117,6 +119,7 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         at = place_at(block, step_size / s.tried[1])
         _let_loose_what_is_off(block, at, contact)
         bind(block, at, contact)
+    unit = contact_unit(block, contact)
     rests_below = RESTS_BELOW * contact_speed(block, contact)
     for _ in range(_NEWTON_STEPS):
         try_step(block, start, step_size)
@@ -125,7 +128,8 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         if not rate < -rests_below:  # of what slides in front of something flat, rounding has either sign
             return step_size
         move = -distance / rate
-        if abs(move) * rate_scale(block) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
+        within = ROOT_TOLERANCE if abs(distance) > ROOT_TOLERANCE * unit else _OF_NO_WAY * ROOT_TOLERANCE
+        if abs(move) * rate_scale(block) <= within or not 0.0 < step_size + move < limit:
             return step_size
         step_size += move
     try_step(block, start, step_size)
@@ -270,14 +274,13 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
             look_at.armed[number] = 1
             look_at.floor[number] = 0.0
         return fraction
-    noise = GAP_NOISE * guard_unit(block, guard, subject)
     if look_at.armed[number] == 0:
         if next_value <= 0.0 and (next_rate <= 0.0 or next_value < floor):
             level = 0.0
             if next_rate < 0.0:
                 before = _top(block, number, after)
                 if not value_at(block, number, before)[0] > 0.0:
-                    level = floor + noise  # where it began
+                    level = floor + GAP_NOISE * guard_unit(block, guard, subject)  # where it began
                 if next_value > level or not before * Stages(block).tried[1] > smallest_step(
                     block, Stages(block).tried[0]
                 ):
@@ -300,7 +303,7 @@ def _zero_between(block: Array, number: int, before: float, after: float) -> flo
     if next_value > 0.0 and look_at.armed[number] == 0:
         look_at.armed[number] = 1
         look_at.floor[number] = 0.0
-    if next_value > noise:
+    if look_at.floor[number] != 0.0 and next_value > GAP_NOISE * guard_unit(block, guard, subject):
         look_at.floor[number] = 0.0
     look_at.rate[number] = next_rate
     return fraction

@@ -17,22 +17,20 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import CUBIC_ROWS, METHOD
-from ...tables.motion import BEHIND, Course, LinearSystem, Rows, Rubs, Stages
+from ...tables.motion import BEHIND, Course, LinearSystem, Rubs, Stages
 from ...tables.parts import Bodies, Contacts, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
-from ..constraints.rows import row_count
 from ..dynamics.acceleration import close_rows, derivative
 from ..dynamics.forces import set_time
 from ..interpolation import interpolate
 from ..profiles.curves import within_motions
-from ..scales import largest_off, rate_scale, unknown_scale
 from ..vectors import clear, copy
 from .events import first_event
 from .runge_kutta import ABSOLUTE_FRACTION, try_step
 from .singular import SINGULAR_BELOW, independence, least_independence
-from .stage import note_pushes
+from .stage import note_drift, note_pushes
 from .step_size import scale_of_step, smallest_step, within_ramp
 
 _LAST = METHOD.last
@@ -269,7 +267,7 @@ def _distance(block: Array, y: Array, other: Array) -> float:
     least = _square(block, y[n:])
     for i in range(2 * n, Sizes(block).y_wear):
         if i >= Sizes(block).y_alpha:
-            least = ABSOLUTE_FRACTION * unknown_scale(block, i, rate_scale(block))
+            least = ABSOLUTE_FRACTION
         most = max(most, abs(y[i] - other[i]) / (least + abs(y[i])))
     error: float = most / relative
     return error
@@ -307,9 +305,7 @@ def _put_right(block: Array, start: float, size: float) -> float:
     set_time(block, start + size)
     close_rows(block, s.y_new, 0.0, 0.0, 0.0)
     derivative(block, s.y_new, s.derivatives[_LAST])
-    count = row_count(block)
-    s.drift[0] = largest_off(block, Rows(block).residual, count)
-    s.drift[1] = largest_off(block, Rows(block).residual_rate, count)
+    note_drift(block)
     return _distance(block, s.y_new, s.y_at)
 
 

@@ -26,7 +26,7 @@ from ..constraints.rows import active_rows
 from ..dynamics.acceleration import correct, derivative, take_off
 from ..dynamics.forces import set_time
 from ..elementary import exp, log
-from ..scales import rate_scale, unknown_scale
+from ..scales import rate_scale, write_scales
 from ..vectors import clear, copy
 from .stage import evaluate_stage
 
@@ -191,14 +191,15 @@ def _differentiate(block: Array, start: float, h: float) -> None:
     n = Sizes(block).coordinates
     copy(s.y_start, s.y_stage)
     set_time(block, start)
+    write_scales(block, rate_scale(block), 0.0)
     for k in range(n + _order(block)):
         j = k if k < n else _unknown(block, k - n)
         there = s.y_start[j]
-        s.y_stage[j] = there + _MOVES * (_MOVES_AT_LEAST * unknown_scale(block, j, rate_scale(block)) + abs(there))
+        s.y_stage[j] = there + _MOVES * (_MOVES_AT_LEAST * s.scale[j] + abs(there))
         move = s.y_stage[j] - there
         derivative(block, s.y_stage, s.dy_at)
         s.y_stage[j] = there
-        far = k < n and abs(there) > _FAR * unknown_scale(block, j, 1.0)
+        far = k < n and abs(there) > _FAR * s.scale[j]
         for i in range(Sizes(block).unknowns):
             change = s.dy_at[i] - s.derivatives[0, i]
             if far and n <= i < 2 * n:  # the rounding of an acceleration would be taken times a long way

@@ -10,21 +10,20 @@ import math
 from ... import codes
 from ...tables.declare import Array
 from ...tables.method import METHOD
-from ...tables.motion import Course, Rows, Rubs, Stages
+from ...tables.motion import Course, Rubs, Stages
 from ...tables.parts import Contacts, Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
-from ..constraints.rows import row_count
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..dynamics.scaling import moving_rate
 from ..elementary import power
 from ..interpolation import write_dense
-from ..scales import largest_off, rate_scale, unknown_scale
+from ..scales import rate_scale, write_scales
 from ..vectors import clear
 from .rosenbrock import error_of_implicit, implicit_stages, passed_on
-from .stage import evaluate_stage
+from .stage import evaluate_stage, note_drift
 
 _STAGES = METHOD.stages
 _LAST = METHOD.last
@@ -37,6 +36,8 @@ _ERROR_EXPONENT = METHOD.error_exponent
 ABSOLUTE_FRACTION = 1e-3
 #: The first step where nothing is known of the motion, in parts of its time.
 _FIRST_STEP = 1e-6
+#: A bold first step is so many times the cautious one at most.
+_BOLDLY = 64.0
 
 
 @jit
@@ -68,14 +69,12 @@ def try_step(block: Array, start: float, size_: float) -> float:
     else:
         _explicit_stages(block, start, h)
     evaluate_stage(block, start + h, s.y_new, s.derivatives[_LAST])
-    count = row_count(block)
-    s.drift[0] = largest_off(block, Rows(block).residual, count)
-    s.drift[1] = largest_off(block, Rows(block).residual_rate, count)
+    note_drift(block)
     if not implicit:
         write_dense(block, h)
     if not s.drift[0] + s.drift[1] < math.inf:  # of what is no number, nothing would be left
         return math.inf
-    s.rate[0] = moving_rate(block)
+    write_scales(block, moving_rate(block), h)
     return _error_norm(block, h)
 
 
@@ -137,12 +136,7 @@ def scaled_error(block: Array, i: int, h: float) -> float:
         if _ERROR[j] != 0.0:
             error += _ERROR[j] * k[j, i]
     error *= h
-    size = ABSOLUTE_FRACTION * unknown_scale(block, i, s.rate[0])
-    n = Sizes(block).coordinates
-    long = h * s.rate[0]
-    if n <= i < 2 * n and long > 1.0:  # in a long step, such a speed leads farther than what counts of places
-        size /= long
-    size += max(abs(s.y_start[i]), abs(s.y_new[i]))
+    size = ABSOLUTE_FRACTION * s.scale[i] + max(abs(s.y_start[i]), abs(s.y_new[i]))
     if Course(block).counters[codes.IMPLICIT] == 1:
         error = error_of_implicit(block, i)
         size += passed_on(block, i, h)
@@ -151,17 +145,23 @@ def scaled_error(block: Array, i: int, h: float) -> float:
 
 
 @jit
-def initial_step_size(block: Array) -> float:
-    """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step)."""
+def initial_step_size(block: Array, is_bold: bool) -> float:
+    """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step).
+
+    That takes all derivatives for as large as the first two, and so is too short by far for what flies or falls. Where
+    it `is_bold`, what moves may nearly change by its own size: to try again costs less than several short steps, in
+    which looks at outlines are as many as in long ones.
+    """
     keep_small()
     n = Sizes(block).y_wear
     now = Course(block)
     s = Stages(block)
     rate = rate_scale(block)
+    write_scales(block, rate, 0.0)
     relative = Options(block).settings[codes.RELATIVE_TOLERANCE]
     size_y = size_dy = 0.0
     for i in range(n):
-        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i, rate) + abs(now.y_end[i]))
+        scale = relative * (ABSOLUTE_FRACTION * s.scale[i] + abs(now.y_end[i]))
         size_y += (now.y_end[i] / scale) * (now.y_end[i] / scale)
         size_dy += (now.dy_end[i] / scale) * (now.dy_end[i] / scale)
     size_y = math.sqrt(size_y / n)
@@ -176,7 +176,7 @@ def initial_step_size(block: Array) -> float:
     derivative(block, s.y_stage, s.dy_at)
     bend = 0.0
     for i in range(n):
-        scale = relative * (ABSOLUTE_FRACTION * unknown_scale(block, i, rate) + abs(now.y_end[i]))
+        scale = relative * (ABSOLUTE_FRACTION * s.scale[i] + abs(now.y_end[i]))
         difference = (s.dy_at[i] - now.dy_end[i]) / scale
         bend += difference * difference
     bend = math.sqrt(bend / n) / first
@@ -184,4 +184,6 @@ def initial_step_size(block: Array) -> float:
     second = max(least, first * 1e-3)
     if steepest > 1e-15:
         second = power(0.01 / steepest, 1.0 / _ERROR_EXPONENT) / rate
+    if is_bold:
+        return max(second, min(50.0 * first, _BOLDLY * second))
     return min(100.0 * first, second)

@@ -6,7 +6,7 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
-from ...tables.motion import Course, Rubs, Stages
+from ...tables.motion import Course, Rows, Rubs, Stages
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
@@ -17,6 +17,8 @@ from ..contacts.guards import can_open
 from ..dynamics.acceleration import derivative
 from ..dynamics.forces import set_time
 from ..dynamics.rounding import note_level
+from ..scales import largest_off
+from ..vectors import largest
 from .singular import independence
 
 
@@ -58,3 +60,15 @@ def note_pushes(block: Array) -> None:
     for k in range(rub.slip.shape[0]):
         if sticks(block, k):
             rub.least_hold[k] = min(rub.least_hold[k], hold_ratio(block, k))
+
+
+@jit
+def note_drift(block: Array) -> None:
+    """Write `stages.drift` from the rows as they have just been evaluated."""
+    rows = Rows(block)
+    drift = Stages(block).drift
+    count = row_count(block)
+    drift[0] = largest_off(block, rows.residual, count)
+    drift[1] = largest_off(block, rows.residual_rate, count)
+    drift[2] = largest(rows.residual, count)
+    drift[3] = largest(rows.residual_rate, count)

@@ -16,7 +16,6 @@ from ...tables.motion import Course, Stages
 from ...tables.parts import Options
 from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_small
-from ..scales import rate_scale, unknown_scale
 from .rosenbrock import evaluations, fastest
 from .runge_kutta import ABSOLUTE_FRACTION
 
@@ -49,7 +48,7 @@ def look_stiff(block: Array) -> None:
     work, alpha = Sizes(block).y_work, Sizes(block).y_alpha
     for i in range(Sizes(block).y_wear):
         if i < work or i >= alpha:
-            scale = ABSOLUTE_FRACTION * unknown_scale(block, i, rate_scale(block)) + abs(s.y_new[i])
+            scale = ABSOLUTE_FRACTION * s.scale[i] + abs(s.y_new[i])
             slope = (s.derivatives[_LAST, i] - s.derivatives[_LAST - 1, i]) / scale
             place = (s.y_new[i] - s.y_stage[i]) / scale
             slopes += slope * slope

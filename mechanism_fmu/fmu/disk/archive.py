@@ -13,6 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
+import deflate
+
 from ..parts.model_description import to_bytes
 from .folders import unsafe_name
 
@@ -25,6 +27,9 @@ _TIME = (1980, 1, 1, 0, 0, 0)
 #: What zipfile raises, beside its own error, for archives that are damaged, cut off, encrypted, or compressed in a way
 #: that it does not know.
 _DAMAGED = (zlib.error, lzma.LZMAError, struct.error, EOFError, RuntimeError, ValueError, OverflowError)
+
+#: Level of libdeflate that compresses most.
+_SHORTEST = 12
 
 _FILE, _PROGRAM = 0o100644, 0o100755
 
@@ -64,19 +69,34 @@ def with_guid(entries: Mapping[str, bytes]) -> dict[str, bytes]:
     return {**entries, DESCRIPTION: to_bytes(root)}
 
 
-def write_archive(entries: Mapping[str, bytes], path: Path, compression: int = zipfile.ZIP_STORED) -> None:
+def write_archive(entries: Mapping[str, bytes], path: Path, *, compressed: bool = False) -> None:
     """Write an FMU: sorted, with fixed times and permissions, and never half of it.
 
-    What is stored is the same everywhere; what is compressed depends on the version of zlib.
+    What is stored is the same everywhere; what is compressed depends on the version of libdeflate.
     """
     temporary = path.with_name(f".{path.name}.{os.getpid()}.unfinished")
     try:
-        with zipfile.ZipFile(temporary, "w", compression, compresslevel=9) as archive:
+        with zipfile.ZipFile(temporary, "w") as archive:
             for name, contents in sorted(entries.items()):
                 info = zipfile.ZipInfo(name, _TIME)
                 info.create_system = 3  # Unix, on every system
                 info.external_attr = (_PROGRAM if name.startswith("binaries/") else _FILE) << 16
-                archive.writestr(info, contents, compression, 9)
+                _write_deflated(archive, info, contents) if compressed else archive.writestr(info, contents)
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _write_deflated(archive: zipfile.ZipFile, info: zipfile.ZipInfo, contents: bytes) -> None:
+    """Append contents as libdeflate compresses them: 4 % shorter than by zlib, which is all that zipfile can use."""
+    packed = deflate.deflate_compress(contents, _SHORTEST)
+    info.compress_type = zipfile.ZIP_DEFLATED
+    info.CRC, info.file_size, info.compress_size = zlib.crc32(contents), len(contents), len(packed)
+    assert archive.fp is not None
+    info.header_offset = archive.start_dir
+    archive.fp.seek(archive.start_dir)
+    archive.fp.write(info.FileHeader())
+    archive.fp.write(packed)
+    archive.start_dir = archive.fp.tell()
+    archive.filelist.append(info)
+    archive.NameToInfo[info.filename] = info

@@ -106,9 +106,8 @@ _FLAGS = (  # of all targets
 
 #: Of FMI 3.0, and of the C library, what a page calls; other functions say so themselves.
 _WEB_EXPORTS = (
-    *("malloc", "free", "fmi3FreeInstance", "fmi3Terminate", "fmi3Reset", "fmi3FreeFMUState", "fmi3DoStep"),
-    *(f"fmi3{access}{kind}" for access in ("Get", "Set") for kind in ("Float64", "Int32", "Boolean", "FMUState")),
-    "fmi3GetOutputDerivatives",
+    *("malloc", "free", "fmi3FreeInstance"),
+    *(f"fmi3{access}{kind}" for access in ("Get", "Set") for kind in ("Float64", "Int32", "Boolean")),
 )
 
 #: A module that a page calls, with 256 kB of stack in place of 16 MB, and with the model as data.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import uuid
-import zipfile
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -166,7 +165,7 @@ def build_native_fmu(
         entries[name] = universal(libraries) if len(libraries) > 1 else libraries[0]
     # They follow from all that the fingerprint is of; last digits may be those of this machine.
     entries |= reference_results(model, library_of(report))
-    write_archive(entries, path, zipfile.ZIP_DEFLATED)
+    write_archive(entries, path, compressed=True)
     return record_build(path)
 
 

@@ -4,6 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+/* A page co-simulates, and asks for what the model has by name only: what else is here would be a tenth of its module. */
+#ifdef MODEL_IS_LOADED
+enum { ON_A_PAGE = 1 };
+#else
+enum { ON_A_PAGE = 0 };
+#endif
+
 #define RUNNING (IN(EVENT) | IN(CONTINUOUS))
 
 static size_t state_count(const Instance *x) { return SIZE(x, unknowns); }
@@ -12,6 +19,7 @@ static size_t indicator_count(const Instance *x) { return SIZE(x, indicators); }
 
 static int64_t ask(Instance *x, int64_t what) {
     x->outputs_read = 0;
+    if (ON_A_PAGE) return STATUS_OK;
     return mechanism_exchange(x->block, (int64_t)model.words, what, time_of(x));
 }
 
@@ -142,12 +150,14 @@ unsigned last_exchanged(const Instance *x) {
     return (unsigned)(first_exchanged(x) + 2 * state_count(x) + indicators - 1);
 }
 
-int is_exchanged(const Instance *x, unsigned vr) { return vr >= first_exchanged(x) && vr <= last_exchanged(x); }
+int is_exchanged(const Instance *x, unsigned vr) {
+    return !ON_A_PAGE && vr >= first_exchanged(x) && vr <= last_exchanged(x);
+}
 
 /* In co-simulation, where the engine may be ahead of the time reached, states are those at this time. */
 double exchanged(Instance *x, unsigned vr) {
     size_t k = vr - first_exchanged(x), n = state_count(x);
-    if (k < 2 * n) {
+    if (!ON_A_PAGE && k < 2 * n) {
         mechanism_read_output_rates(x->block, (int64_t)model.words);
         return k < n ? FIELD(x, y_at)[k] : FIELD(x, dy_at)[k - n];
     }
