@@ -36,7 +36,9 @@ _ERROR_EXPONENT = METHOD.error_exponent
 ABSOLUTE_FRACTION = 1e-3
 #: The first step where nothing is known of the motion, in parts of its time.
 _FIRST_STEP = 1e-6
-#: A bold first step is so many times the cautious one at most.
+#: A guess of a first step is too short where the step before it was so many times as long, or what accelerations say.
+_SHORT_OF_BEFORE, _SHORT = 4.0, 2.0
+#: It is then made so many times as long at most.
 _BOLDLY = 64.0
 
 
@@ -145,12 +147,12 @@ def scaled_error(block: Array, i: int, h: float) -> float:
 
 
 @jit
-def initial_step_size(block: Array, is_bold: bool) -> float:
+def initial_step_size(block: Array, before: float) -> float:
     """A first step size from y_end and dy_end [s] (Hairer, Nørsett, Wanner, II.4, algorithm of the starting step).
 
     That takes all derivatives for as large as the first two, and so is too short by far for what flies or falls. Where
-    it `is_bold`, what moves may nearly change by its own size: to try again costs less than several short steps, in
-    which looks at outlines are as many as in long ones.
+    the step due `before` [s], 0 at the start, was much longer, or accelerations change slowly, what moves may nearly
+    change by its own size: to try again costs less than short steps, in which there are as many looks at outlines.
     """
     keep_small()
     n = Sizes(block).y_wear
@@ -174,16 +176,20 @@ def initial_step_size(block: Array, is_bold: bool) -> float:
     _euler(now.y_end, now.dy_end, first, s.y_stage)
     set_time(block, now.clock[codes.STEP_END] + first)
     derivative(block, s.y_stage, s.dy_at)
-    bend = 0.0
+    bend = jerk = 0.0
+    coordinates = Sizes(block).coordinates
     for i in range(n):
         scale = relative * (ABSOLUTE_FRACTION * s.scale[i] + abs(now.y_end[i]))
         difference = (s.dy_at[i] - now.dy_end[i]) / scale
         bend += difference * difference
+        if coordinates <= i < 2 * coordinates:
+            jerk += difference * difference
     bend = math.sqrt(bend / n) / first
     steepest = max(size_dy / rate, bend / (rate * rate))  # in the time of the mechanism
     second = max(least, first * 1e-3)
     if steepest > 1e-15:
         second = power(0.01 / steepest, 1.0 / _ERROR_EXPONENT) / rate
-    if is_bold:
-        return max(second, min(50.0 * first, _BOLDLY * second))
+        slowly = math.sqrt(jerk / n) / first / (rate * rate) < steepest * _SHORT**-_ERROR_EXPONENT
+        if slowly or before > _SHORT_OF_BEFORE * second:
+            return max(min(100.0 * first, second), min(50.0 * first, _BOLDLY * second))
     return min(100.0 * first, second)

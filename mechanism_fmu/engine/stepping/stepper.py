@@ -147,11 +147,10 @@ def _move(block: Array, target: float, rule: int) -> int:
                 return outcome
             now.counters[codes.FALLING] = 0  # what was before belongs to other rows
             restart(block)
-            of_contacts = guard != codes.GUARD_FUNCTION and guard != codes.GUARD_INPUT and guard != codes.GUARD_BEGIN
-            now.clock[codes.NEXT_STEP] = initial_step_size(block, of_contacts)
+            now.clock[codes.NEXT_STEP] = initial_step_size(block, now.clock[codes.NEXT_STEP])
         elif Sizes(block).thresholds > 0 and change_sides(block):
             restart(block)  # a long step would feel what begins to act in its first stages alone
-            now.clock[codes.NEXT_STEP] = min(now.clock[codes.NEXT_STEP], initial_step_size(block, False))
+            now.clock[codes.NEXT_STEP] = min(now.clock[codes.NEXT_STEP], initial_step_size(block, 0.0))
         struck = now.counters[codes.COUNT_IMPACTS] > impacts
         stops = rule & codes.STOP_AT_STEP or (rule & codes.STOP_AT_IMPACT and struck)
         if stops or (rule & codes.STOP_AT_EVENT and guard != codes.GUARD_NONE):
