@@ -36,8 +36,9 @@ _ERROR_EXPONENT = METHOD.error_exponent
 ABSOLUTE_FRACTION = 1e-3
 #: The first step where nothing is known of the motion, in parts of its time.
 _FIRST_STEP = 1e-6
-#: A guess of a first step is too short where the step before it was so many times as long, or what accelerations say.
-_SHORT_OF_BEFORE, _SHORT = 4.0, 2.0
+#: A guess of a first step is too short where the step before was so many times as long, or accelerations change so
+#: much less than places and speeds: by them alone, it would be twice as long.
+_OF_SECOND, _OF_STEEPEST = 4.0, 2.0**-5
 #: It is then made so many times as long at most.
 _BOLDLY = 64.0
 
@@ -189,7 +190,7 @@ def initial_step_size(block: Array, before: float) -> float:
     second = max(least, first * 1e-3)
     if steepest > 1e-15:
         second = power(0.01 / steepest, 1.0 / _ERROR_EXPONENT) / rate
-        slowly = math.sqrt(jerk / n) / first / (rate * rate) < steepest * _SHORT**-_ERROR_EXPONENT
-        if slowly or before > _SHORT_OF_BEFORE * second:
-            return max(min(100.0 * first, second), min(50.0 * first, _BOLDLY * second))
+        slow = math.sqrt(jerk / n) / first / (rate * rate) < _OF_STEEPEST * steepest
+        if before > 0.0 and (slow or before > _OF_SECOND * second):
+            second = min(_BOLDLY * second, 50.0 * first)
     return min(100.0 * first, second)
