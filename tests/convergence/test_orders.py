@@ -95,6 +95,7 @@ def errors_of_steps(cause, start, step, count, method=codes.EXPLICIT, beta=1.0):
     y = np.append(exact(start), [0.0, 0.0])  # no work, no loss
     inside = np.zeros((len(FRACTIONS), len(y)))
     block = pack(compile_mechanism(swing(alpha=0.0, beta=beta, cause=cause, method=method)))
+    Course(block).scales[:] = Course(block).body_scales[:] = 1.0  # which else is written where a motion begins
     Course(block).counters[codes.IMPLICIT] = method == codes.IMPLICIT_METHOD
     fixed_steps(block, y, start, step, count, FRACTIONS, inside)
     times = start + step * (count - 1 + FRACTIONS)

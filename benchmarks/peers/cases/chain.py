@@ -207,7 +207,7 @@ CASE = Case(
         Program("Exudyn", "tree of hinges, RK4", (50, 100, 200, 400, 800, 1600), exudyn_tree, "steps"),
         Program("Exudyn", "joints, generalised alpha", (50, 100, 200, 400, 800, 1600, 3200), exudyn_joints, "steps"),
     ),
-    floor=6e-14,
+    floor=7e-14,
     cannot={},
     within=1e-9,
 )
