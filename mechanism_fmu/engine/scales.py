@@ -100,9 +100,9 @@ def contact_unit(block: Array, contact: int) -> float:
 @jit
 def contact_speed(block: Array, contact: int) -> float:
     """Scale of the rate at which the gap of a contact changes."""
-    return contact_unit(block, contact) * pair_rate(
-        block, Contacts(block).body_i[contact], Contacts(block).body_j[contact]
-    )
+    i, j = Contacts(block).body_i[contact], Contacts(block).body_j[contact]
+    unit = pair_length(block, i, j) if Contacts(block).kind[contact] == codes.OUTLINE else contact_unit(block, contact)
+    return unit * pair_rate(block, i, j)
 
 
 @jit
@@ -130,9 +130,11 @@ def row_unit(block: Array, row: int) -> float:
     along = across = 0.0
     for end in range(2):
         first = 3 * Rows(block).body[row, end]
-        across = max(across, abs(entry[first]), abs(entry[first + 1]))
-        along = max(along, abs(entry[first + 2]))
-    return max(along, across * pair_length(block, Rows(block).body[row, 0], Rows(block).body[row, 1]))
+        if first < Sizes(block).coordinates:  # how far the place is from the origin says nothing
+            across = max(across, abs(entry[first]), abs(entry[first + 1]))
+            along = max(along, abs(entry[first + 2]))
+    unit = max(along, across * pair_length(block, Rows(block).body[row, 0], Rows(block).body[row, 1]))
+    return unit if unit > 0.0 else length_scale(block)
 
 
 @jit
@@ -183,7 +185,6 @@ def write_scales(block: Array, rate: float, step: float) -> None:
         scale[n + k + 2] = speed
     length = length_scale(block)
     mass = Course(block).scales[codes.SCALE_MASS]
-    for i in range(Sizes(block).y_work, Sizes(block).y_alpha):
-        scale[i] = mass * length * rate * rate * length
-    for i in range(Sizes(block).y_alpha, Sizes(block).unknowns):
-        scale[i] = 1.0
+    energy = mass * length * rate * rate * length
+    for i in range(2 * n, Sizes(block).unknowns):
+        scale[i] = energy if i < Sizes(block).y_alpha else 1.0

@@ -11,7 +11,7 @@ from ...tolerances import CLOSES_WITHIN, DEEPEST, ROOT_TOLERANCE
 from ..compiler.subset import jit, keep_apart
 from ..constraints.kinematics import place_bodies
 from ..constraints.point_line import spare_row
-from ..scales import contact_unit, rate_scale
+from ..scales import contact_unit, length_scale, rate_scale
 from .binding import is_outline
 from .guards import gap, is_watched
 
@@ -29,7 +29,9 @@ def is_too_deep(block: Array, at: Pose, contact: int, distance: float, rate: flo
     """
     keep_apart()
     deepest = CLOSES_WITHIN if Sizes(block).functions > 0 else DEEPEST
-    unit = contact_unit(block, contact)
+    # boundaries and functions are passed by parts of the whole mechanism
+    switches = Sizes(block).functions + Sizes(block).patterns > 0
+    unit = max(contact_unit(block, contact), length_scale(block)) if switches else contact_unit(block, contact)
     i, j = Contacts(block).body_i[contact], Contacts(block).body_j[contact]
     far = unit * (abs(at.phi[i]) + abs(at.phi[j])) + abs(at.x[i]) + abs(at.y[i]) + abs(at.x[j]) + abs(at.y[j])
     deep: bool = distance < -deepest * unit - _ROUNDING * far - ROOT_TOLERANCE / rate_scale(block) * abs(rate)

@@ -29,6 +29,8 @@ _LAST = METHOD.last
 LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 3.2794799999999995
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
+#: A row that acts so near to the middle of a body, in parts of its radius of gyration, acts there: that arm is no size.
+_IN_MIDDLE = 2.0**-10
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
 #: What moves so many times more slowly than the scale of rates says has a slower one.
@@ -92,6 +94,7 @@ def _note_arms(block: Array) -> None:
     clear(arms)
     leader = LinearSystem(block).leader
     own = Course(block).body_scales
+    inverse = Bodies(block).inverse_mass
     for b in range(Sizes(block).bodies):
         leader[b] = b
         own[b, codes.ISLAND_RATE] = 0.0
@@ -101,8 +104,10 @@ def _note_arms(block: Array) -> None:
         for b in (i, j):
             across = math.sqrt(entry[3 * b] * entry[3 * b] + entry[3 * b + 1] * entry[3 * b + 1])
             if 3 * b < n and across > 0.0:
-                arms[b] = max(arms[b], abs(entry[3 * b + 2]) / across)
-                if entry[3 * b + 2] == 0.0 and 3 * (i + j - b) >= n:
+                arm = abs(entry[3 * b + 2]) / across
+                if arm * arm * inverse[3 * b + 2] > _IN_MIDDLE * _IN_MIDDLE * inverse[3 * b]:
+                    arms[b] = max(arms[b], arm)
+                elif 3 * (i + j - b) >= n:
                     own[b, codes.ISLAND_RATE] += 1.0
         if 3 * i < n and 3 * j < n:
             one, other = leader_of(LinearSystem(block), i), leader_of(LinearSystem(block), j)

@@ -99,6 +99,8 @@ def quarter_wave(block: Array, piece: int) -> float:
 
 #: A step that comes so near to the end of a piece, or of an input's slope, goes there.
 NEARLY = 0.99
+#: A piece that is narrower than this part of all is rounding between two.
+_NARROW = 1e-9
 
 
 @jit
@@ -154,3 +156,28 @@ def _periods_before(block: Array, number: int, start: float) -> float:
     if table.periodic[number] == 1:
         turns = math.floor((start - table.range[number, 0]) / table.range[number, 1]) * table.range[number, 1]
     return turns
+
+
+@jit
+def shortest_motion(block: Array) -> float:
+    """The shortest piece, period or quarter of a wave of all drivers' motions [s]; infinite where none has any."""
+    keep_small()
+    joints = Joints(block)
+    table = Curves(block)
+    shortest = math.inf
+    for k in range(joints.kind.shape[0]):
+        number = joints.curve[k]
+        if number == codes.NONE:
+            continue
+        first = table.piece[number]
+        last = first + table.pieces[number] - 1
+        least = _NARROW * (table.piece_start[last] - table.piece_start[first])
+        if table.periodic[number] == 1:
+            shortest = min(shortest, table.range[number, 1])
+        for p in range(first, last):
+            width = table.piece_start[p + 1] - table.piece_start[p]
+            if width > least:
+                shortest = min(shortest, width)
+        for p in range(first, last + 1):
+            shortest = min(shortest, quarter_wave(block, p))
+    return shortest

@@ -24,7 +24,7 @@ from ..dynamics.forces import set_time, take_inputs
 from ..dynamics.oscillation import begin_oscillations
 from ..dynamics.scaling import note_rate, note_sizes
 from ..dynamics.thresholds import clear_sides
-from ..profiles.curves import within_motions
+from ..profiles.curves import shortest_motion
 from ..profiles.overlap import overlap
 from ..profiles.shape import examine_profiles
 from ..scales import contact_speed, contact_unit, largest_off, present_rate
@@ -46,7 +46,7 @@ def start(block: Array, time: float) -> int:
     keep_apart()
     _begin_at_zero(block, time)
     note_sizes(block)
-    note_rate(block, 1.0 / within_motions(block, time, math.inf))
+    note_rate(block, 1.0 / shortest_motion(block))
     at = place_bodies(block, Course(block).y_end)
     if _profiles_overlap(block, at):
         return status.OVERLAP

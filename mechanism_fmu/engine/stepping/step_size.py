@@ -43,8 +43,10 @@ def within_ramp(block: Array, start: float, step: float) -> float:
 # The size of a step: as long as its error allows, and no longer than what may happen within it.
 
 _ERROR_EXPONENT = METHOD.error_exponent
-#: Smallest step as a fraction of the mechanism's time, or of |t| if that is more.
+#: Smallest step as a fraction of the mechanism's time, or of the step tried if that is less, or of |t| if that is more.
 _SMALLEST_STEP = 1e-15
+#: How far a step shrinks that is not accurate, in parts of the one tried first, if that is less.
+_SMALLEST_OF_FIRST = 1e-30
 #: Where there are guards or thresholds, no body turns further than this in one step [rad]: a step without error may be
 #: of any length, and would pass over what a turning point meets in every turn.
 MOST_TURN = 1.0
@@ -72,9 +74,10 @@ def accurate_step(block: Array, start: float) -> float:
     now = Course(block)
     wanted = min(now.clock[codes.NEXT_STEP], _LONGEST_STEP)
     if now.counters[codes.IMPLICIT] == 1:  # what a first step is guessed from may be what is stiff
-        wanted = max(wanted, _FIRST_IMPLICIT * smallest_step(block, start))
+        wanted = max(wanted, _FIRST_IMPLICIT * _SMALLEST_STEP * max(1.0 / rate_scale(block), abs(start)))
     step = representable(start, within_ramp(block, start, wanted))
     step = representable(start, within_motions(block, start, step))
+    first = step
     error = _try(block, start, step)
     grow_most = _GROW_MOST
     while not error <= 1.0:
@@ -82,7 +85,8 @@ def accurate_step(block: Array, start: float) -> float:
         tried = step
         step = representable(start, step * scale_of_step(error, 1.0))
         grow_most = 1.0
-        if not step > smallest_step(block, start):
+        least = min(_SMALLEST_STEP / rate_scale(block), _SMALLEST_OF_FIRST * first)
+        if not step > max(least, _SMALLEST_STEP * abs(start)):
             joins = error < math.inf and Sizes(block).alphas > 0
             if joins and passes_join(block, Stages(block).y_start, Stages(block).y_new):
                 step = tried  # the curvature jumps there, and with it accelerations: rates by no more than rounding
@@ -90,7 +94,7 @@ def accurate_step(block: Array, start: float) -> float:
                 break
             if not is_beyond_explicit(block):
                 return 0.0
-            step = representable(start, _FIRST_IMPLICIT * smallest_step(block, start))
+            step = representable(start, _FIRST_IMPLICIT * _SMALLEST_STEP * max(1.0 / rate_scale(block), abs(start)))
         error = _try(block, start, step)
     look_stiff(block)
     now.clock[codes.NEXT_STEP] = step * scale_of_step(error, grow_most)
@@ -101,8 +105,8 @@ def accurate_step(block: Array, start: float) -> float:
 
 @jit
 def smallest_step(block: Array, start: float) -> float:
-    """The size that a step from `start` [s] must exceed [s]."""
-    return _SMALLEST_STEP * max(1.0 / rate_scale(block), abs(start))
+    """The size that a step from `start` [s] must exceed [s]; what hardly moves yet has a long time, but short steps."""
+    return _SMALLEST_STEP * max(min(1.0 / rate_scale(block), Stages(block).tried[1]), abs(start))
 
 
 @jit

@@ -45,7 +45,8 @@ def _vertex(at: Point, arrives: Point, leaves: Point) -> tuple[Number, ...]:
 #: From one copy to the next: an angle [rad], and lengths in x and y [m].
 Step = tuple[Number, Number, Number]
 
-#: Ends of copies join that are nearer to each other than this part of how far they are from the origin.
+#: Ends of copies join that are nearer to each other than this part of how far they are from the origin, and from one
+#: end of the chain to the other.
 _JOIN_WITHIN = 1e-9
 
 
@@ -54,7 +55,7 @@ def _first_end(at: Point, leaves: Point, last: Point, arrives: Point, step: Step
     numbers: tuple[Number, ...] = (*at, 0.0, 0.0, *leaves, codes.FREE_END)
     for way in (1, -1) if step is not None else ():
         turned = _vertex(at, _moved(arrives, step, way, 0.0), leaves)
-        numbers = _if_joined(_moved(last, step, way), at, turned, numbers)
+        numbers = _if_joined(_moved(last, step, way), at, (at[0] - last[0], at[1] - last[1]), turned, numbers)
     return numbers
 
 
@@ -63,13 +64,16 @@ def _last_end(at: Point, arrives: Point, first: Point, leaves: Point, step: Step
     numbers: tuple[Number, ...] = (*at, *arrives, 0.0, 0.0, codes.FREE_END)
     for way in (1, -1) if step is not None else ():
         *data, turn = _vertex(at, arrives, _moved(leaves, step, way, 0.0))
-        numbers = _if_joined(_moved(first, step, way), at, (*data, minimum(turn, 0.0)), numbers)
+        chord = at[0] - first[0], at[1] - first[1]
+        numbers = _if_joined(_moved(first, step, way), at, chord, (*data, minimum(turn, 0.0)), numbers)
     return numbers
 
 
-def _if_joined(one: Point, other: Point, then: tuple[Number, ...], otherwise: tuple[Number, ...]) -> tuple[Number, ...]:
+def _if_joined(
+    one: Point, other: Point, chord: Point, then: tuple[Number, ...], otherwise: tuple[Number, ...]
+) -> tuple[Number, ...]:
     dx, dy = one[0] - other[0], one[1] - other[1]
-    far = one[0] * one[0] + one[1] * one[1] + other[0] * other[0] + other[1] * other[1]
+    far: Number = sum((u * u + v * v for u, v in (one, other, chord)), 0.0)
     left = _JOIN_WITHIN * _JOIN_WITHIN * far - dx * dx - dy * dy
     return tuple(where_positive(left, a, b) for a, b in zip(then, otherwise, strict=True))
 
