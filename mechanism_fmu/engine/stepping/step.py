@@ -149,6 +149,9 @@ def take_step(block: Array) -> int:
                 _refuse(block, wanted, method)
                 return _shock_or_fail(block)
             singular = singular and is_singular(block)  # what the event ends may be what depends on something there
+        elif guard == codes.GUARD_PUSH and why_no_step(block) == status.JAMMED:
+            _refuse(block, wanted, method)
+            return _shock_or_fail(block)  # the force does not fall to zero here, but grows without limit
         else:
             step = 0.0  # it happens here and now
             singular = False

@@ -128,7 +128,8 @@ def why_no_step(block: Array) -> int:
     total = 0.0
     for k in range(s.y_new.shape[0]):
         total += abs(s.y_new[k])
-    if total < math.inf and independence(block) < IN_LINE:  # what is no number depends on nothing
+    least = min(independence(block), Course(block).independence_end[0])  # a step that fails may end anywhere
+    if total < math.inf and least < IN_LINE:  # what is no number depends on nothing
         return status.OUT_OF_REACH if is_out_of_reach(block) else status.SINGULAR
     return status.STEP_TOO_SMALL
 
