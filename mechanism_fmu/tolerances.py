@@ -35,8 +35,6 @@ DEEPEST = 10.0 * MARGIN + 2.0 * GAP_NOISE
 PASSES_BY = 1e-11
 #: The instant of an event is found when one more Newton step would move it by less than this.
 ROOT_TOLERANCE = 1e-13
-#: A gap of so few roundings is closed: the instant of its impact is as exact as the second number.
-CLOSED_GAP, CLOSED_GAP_WITHIN = 5e-15, 1e-11
 #: A force that lacks less than these shares still pushes; it opens at twice that (`engine.dynamics.rounding`): of what
 #: acts since the last event, which mending of drift disturbs by so much, and of the largest force along any row, by the
 #: masses.

@@ -11,7 +11,7 @@ from ...tables.declare import Array
 from ...tables.motion import Course, LinearSystem, Pose, Strikes
 from ...tables.parts import Bodies, Contacts, Forces, Joints, Patterns
 from ...tables.sizes import Sizes
-from ...tolerances import CLOSED_GAP, PILED, RESTS_BELOW, ROOT_TOLERANCE, TOUCHES_WITHIN
+from ...tolerances import PILED, RESTS_BELOW, ROOT_TOLERANCE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.friction_rows import BRAKE, rubs
 from ..dynamics.islands import leader_of
@@ -141,8 +141,7 @@ def _closes_now(block: Array, at: Pose, contact: int) -> bool:
     closes = False
     if _exists_open(block, contact):
         distance, rate = gap(block, at, contact)
-        near = CLOSED_GAP * contact_unit(block, contact)
-        closes = distance <= max(-ROOT_TOLERANCE / rate_scale(block) * rate, near)
+        closes = distance <= -ROOT_TOLERANCE / rate_scale(block) * rate
         closes = closes and rate < -RESTS_BELOW * contact_speed(block, contact)
     if searched:
         let_loose(block, contact)

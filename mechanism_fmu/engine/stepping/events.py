@@ -27,19 +27,11 @@ import math
 
 from ... import codes
 from ...tables.declare import Array
+from ...tables.method import METHOD
 from ...tables.motion import Pose, Stages, Watch
 from ...tables.parts import Contacts
 from ...tables.sizes import Sizes
-from ...tolerances import (
-    CLOSED_GAP,
-    CLOSED_GAP_WITHIN,
-    GAP_NOISE,
-    PASSES_BY,
-    RESTS_BELOW,
-    ROOT_TOLERANCE,
-    SLIPS_ABOVE,
-    TOUCHES_WITHIN,
-)
+from ...tolerances import GAP_NOISE, PASSES_BY, RESTS_BELOW, ROOT_TOLERANCE, SLIPS_ABOVE, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_small
 from ..constraints.friction_rows import rubs
 from ..constraints.kinematics import place_bodies
@@ -57,6 +49,10 @@ from .step_size import smallest_step
 #: Points of a step at which each guard is looked at; between two of them a dip is found by the sign of the gap rate.
 _LOOKS = 8
 _NEWTON_STEPS = 12
+_LAST = METHOD.last
+#: Where no more is left of a gap than this part of the length, and of the time, the motion there is straight: no other
+#: step is tried.
+_CLOSED, _SHIFTS_BY = 5e-15, 1e-11
 #: How closely it is found on the dense output where a feature ends, in parts of a step; `refine_end` does the rest.
 _HANDS_OVER_WITHIN = 1e-12
 #: What a guard does at the start of a step, as the fraction at which it fires: nothing yet; nothing in this step; it
@@ -135,9 +131,12 @@ def refine(block: Array, contact: int, step_size: float) -> float:
         if not rate < -rests_below:  # of what slides in front of something flat, rounding has either sign
             return step_size
         move = -distance / rate
-        within = ROOT_TOLERANCE if abs(distance) > CLOSED_GAP * unit else CLOSED_GAP_WITHIN
-        if abs(move) * rate_scale(block) <= within or not 0.0 < step_size + move < limit:
+        if abs(move) * rate_scale(block) <= ROOT_TOLERANCE or not 0.0 < step_size + move < limit:
             return step_size
+        if abs(distance) <= _CLOSED * unit and abs(move) * rate_scale(block) <= _SHIFTS_BY:
+            for i in range(s.y_new.shape[0]):
+                s.y_new[i] += move * s.derivatives[_LAST, i]
+            return step_size + move
         step_size += move
     try_step(block, start, step_size)
     return step_size
