@@ -34,7 +34,7 @@ from .meeting import refine_end
 from .passing import NEARER, PASSED, ahead, pass_over, passes
 from .runge_kutta import try_step
 from .singular import is_singular, keep_independence
-from .step_size import accurate_step, smallest_step, why_no_step
+from .step_size import accurate_step, forces_are_unbounded, smallest_step, why_no_step
 from .stiffness import choose_method
 
 # When a closed contact first pulls: legal in the paper's guided model, impossible in a real one, so worth knowing.
@@ -149,7 +149,7 @@ def take_step(block: Array) -> int:
                 _refuse(block, wanted, method)
                 return _shock_or_fail(block)
             singular = singular and is_singular(block)  # what the event ends may be what depends on something there
-        elif guard == codes.GUARD_PUSH and why_no_step(block) == status.JAMMED:
+        elif guard == codes.GUARD_PUSH and forces_are_unbounded(block):
             _refuse(block, wanted, method)
             return _shock_or_fail(block)  # the force does not fall to zero here, but grows without limit
         else:

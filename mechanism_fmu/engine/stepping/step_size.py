@@ -110,15 +110,24 @@ def smallest_step(block: Array, start: float) -> float:
 
 
 @jit
+def forces_are_unbounded(block: Array) -> bool:
+    """Whether forces grow without limit where the last acceleration was taken: friction nearly undoes what they do."""
+    keep_small()
+    grows = False
+    for k in range(Rubs(block).slip.shape[0]):
+        grows = grows or (slips(block, k) and abs(Rubs(block).criterion[k]) < _PARADOX)
+    return grows
+
+
+@jit
 def why_no_step(block: Array) -> int:
     """What has made the step shrink to nothing."""
     keep_apart()
     s = Stages(block)
     if s.jams[0] == 1:
         return status.JAMMED
-    for k in range(Rubs(block).slip.shape[0]):
-        if slips(block, k) and abs(Rubs(block).criterion[k]) < _PARADOX:
-            return status.JAMMED
+    if forces_are_unbounded(block):
+        return status.JAMMED
     if LinearSystem(block).rank[0] > Course(block).counters[codes.RANK]:
         return status.SINGULAR
     if Sizes(block).alphas > 0:
