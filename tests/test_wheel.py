@@ -38,7 +38,7 @@ real = importlib.util.find_spec
 importlib.util.find_spec = lambda name, *rest: None if name in EXTRAS else real(name, *rest)
 """
 #: What everybody gets.
-CORE = {"numpy", "fmpy", "pythonfmu", "rainflow", "typer", "rich", "markdown-it-py", "pandas"}
+CORE = {"numpy", "deflate", "fmpy", "pythonfmu", "rainflow", "typer", "rich", "markdown-it-py", "pandas"}
 COMMAND = "from mechanism_fmu.harness.app.cli import main\nmain(sys.argv[1:])\n"
 
 #: Prints every module below a folder that is loaded under two names, or under a name that its path does not have.
