@@ -13,8 +13,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
-import deflate
-
 from ..parts.model_description import to_bytes
 from .folders import unsafe_name
 
@@ -89,6 +87,8 @@ def write_archive(entries: Mapping[str, bytes], path: Path, *, compressed: bool 
 
 def _write_deflated(archive: zipfile.ZipFile, info: zipfile.ZipInfo, contents: bytes) -> None:
     """Append contents as libdeflate compresses them: 4 % shorter than by zlib, which is all that zipfile can use."""
+    import deflate  # what compiles the engine imports this module, and has no other packages
+
     packed = deflate.deflate_compress(contents, _SHORTEST)
     info.compress_type = zipfile.ZIP_DEFLATED
     info.CRC, info.file_size, info.compress_size = zlib.crc32(contents), len(contents), len(packed)
