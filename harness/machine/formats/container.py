@@ -139,7 +139,7 @@ def _binaries() -> dict[str, bytes]:
 
 
 def _folder(name: str) -> str:
-    """Where a component lies; an underscore more keeps it apart from our own."""
+    """Folder of a component; an underscore more keeps it apart from our own."""
     return f"{name}_" if name == NAME else name
 
 
@@ -168,7 +168,7 @@ def _components(parts: Mapping[str, Part], scaled: bool) -> list[dict[str, str]]
 
 
 def _readable(variable: Variable, parts: Mapping[str, Part]) -> bool:
-    """Whether fmpy's container has the functions for its type; it takes an Int64 of FMI 3.0 for an Int32, and fails."""
+    """Return whether fmpy's container has functions for its type; it takes an Int64 of FMI 3.0 for an Int32."""
     fmi = parts[part_of(variable.name)].description.fmi
     known = variable.type in _TYPES if fmi == 2 else variable.fmi_type in _TYPES.values()
     return variable.elements == 1 and known
@@ -192,7 +192,7 @@ def _wanted(plan: Plan, machine: Description) -> list[Variable]:
 
 
 def _exposed(plan: Plan, machine: Description, parts: Mapping[str, Part]) -> list[Exposed]:
-    """What others see of the machine, with start values."""
+    """Variables of the machine that importers see, with start values."""
     names = list(parts)
     values = plan.start_values
     exposed = []
@@ -270,6 +270,6 @@ def _connection(source: int, output: int, target: int, entry: int, kind: str = "
 
 
 def _fingerprint(entries: Mapping[str, bytes], plan: Plan, exposed: list[Exposed]) -> str:
-    """Of everything that the FMU is made from."""
-    what = repr((plan.title, plan.connections, plan.policy, [(e.variable, e.reference) for e in exposed]))
-    return content_hash({**entries, "plan": what.encode()})[:32]
+    """Hash of everything that the FMU is made from: 32 hexadecimal digits."""
+    exchanged = repr((plan.title, plan.connections, plan.policy, [(e.variable, e.reference) for e in exposed]))
+    return content_hash({**entries, "plan": exchanged.encode()})[:32]

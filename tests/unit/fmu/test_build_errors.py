@@ -1,4 +1,6 @@
 import importlib.util
+import os
+import zipfile
 from pathlib import Path
 from types import ModuleType
 
@@ -8,7 +10,7 @@ from typer.testing import CliRunner
 
 import build_fmu as command
 import models
-from mechanism_fmu.fmu.disk.archive import content_hash, write_archive
+from mechanism_fmu.fmu.disk.archive import content_hash, read_entries, write_archive
 from mechanism_fmu.fmu.package import build_fmu
 from mechanism_fmu.model import MechanismError
 
@@ -58,6 +60,17 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path: Path)
         write_archive({"a": b"fine", "b": None}, path)  # type: ignore[dict-item]
     assert [p.name for p in tmp_path.iterdir()] == ["Thing.fmu"]
     assert path.read_bytes() == b"old"
+
+
+@pytest.mark.parametrize("compressed", [False, True])
+def test_an_archive_has_what_was_put_in_whatever_it_is(compressed: bool, tmp_path: Path) -> None:
+    entries = {"empty": b"", "one": b"x", "zeros": bytes(100_000), "binaries/ü/noise": os.urandom(70_000)}
+    path = tmp_path / "Thing.fmu"
+    write_archive(entries, path, compressed=compressed)
+    assert read_entries(path) == entries
+    with zipfile.ZipFile(path) as archive:
+        assert archive.testzip() is None
+    assert (path.stat().st_size < 80_000) == compressed
 
 
 def test_the_content_hash_tells_names_and_contents_apart() -> None:
