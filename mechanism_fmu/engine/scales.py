@@ -69,6 +69,7 @@ def _larger(block: Array, i: int, j: int, column: int) -> float:
 @jit
 def bodies_of(block: Array, rub: int) -> tuple[int, int]:
     """The two bodies of friction: of a contact, a joint, or a force element (see `friction_rows`)."""
+    keep_apart()
     contacts = Sizes(block).contacts
     if rub < contacts:
         return Contacts(block).body_i[rub], Contacts(block).body_j[rub]
@@ -126,6 +127,7 @@ def friction_unit(block: Array, rub: int) -> float:
 @jit
 def row_unit(block: Array, row: int) -> float:
     """Scale of what a row may be off, whatever its unit: by how much it changes where its bodies move by theirs."""
+    keep_apart()
     entry = Rows(block).jacobian[row]
     along = across = 0.0
     for end in range(2):

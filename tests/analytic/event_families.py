@@ -18,6 +18,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from mechanism_fmu import codes
+from mechanism_fmu.engine.dynamics.scaling import LENGTH, RATE
 from mechanism_fmu.model import (
     GROUND,
     AngleDriver,
@@ -37,6 +38,7 @@ from mechanism_fmu.model import (
     rigid_body,
 )
 from mechanism_fmu.simulation import Simulation
+from mechanism_fmu.tolerances import STICK_SPEED
 
 Events = list[tuple[str, float]]
 
@@ -48,8 +50,9 @@ _ACCURACY = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
 TIMES_AGREE = 1e-6
 #: So many looks for each step of scipy's show what begins and ends within one; less than this is rounding [m/s, N].
 _LOOKS, _NOISE = 8, 1e-9
-#: A contact that would part more slowly than this after an impact stays closed [m/s]: docs/explanation/friction.md.
-_STAYS_CLOSED = 1e-6
+#: A contact that would part more slowly than this part of the mechanism's length (of the cam: its radius) times its
+#: rate after an impact stays closed: docs/decisions/069-scales.md.
+_STAYS_CLOSED = STICK_SPEED / (LENGTH * RATE)
 
 
 @dataclass
@@ -365,7 +368,7 @@ def cam(rng: np.random.Generator) -> Draw:
                 found.append(("touch.gap", t))
                 parts = restitution * (height(t, 1) - y[1])
                 slope = height(t, 1) / (speed * (base - lift + height(t, 0)))  # r'/r: of the normal to the follower
-                stays = parts < _STAYS_CLOSED * np.hypot(1.0, slope)
+                stays = parts < _STAYS_CLOSED * (base + lift) * speed * np.hypot(1.0, slope)
                 closed, y = (
                     bool(stays and force(t) > 0.0),
                     np.array([height(t, 0), height(t, 1) + (0 if stays else parts)]),

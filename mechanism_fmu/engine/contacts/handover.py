@@ -32,6 +32,24 @@ from .binding import let_loose
 @jit
 def left_to_go(block: Array, at: Pose, contact: int) -> tuple[float, int, int]:
     """How far the place of contact is from the nearest end of a feature it is on [m]; of which side, and which way."""
+    keep_small()
+    way_i, value_i, way_j, value_j = _ends(block, at, contact)
+    if value_i < value_j:
+        return value_i, 0, way_i
+    return value_j, 1, way_j
+
+
+@jit
+def left_on_side(block: Array, at: Pose, contact: int, side: int) -> float:
+    """As `left_to_go`, of one side alone: what lies flat is at an end of the other one all the time."""
+    keep_small()
+    _, value_i, _, value_j = _ends(block, at, contact)
+    return value_i if side == 0 else value_j
+
+
+@jit
+def _ends(block: Array, at: Pose, contact: int) -> tuple[int, float, int, float]:
+    """The nearer end of the feature of each side: which way it lies, and how far [m]."""
     keep_apart()
     table = Contacts(block)
     i, j = table.body_i[contact], table.body_j[contact]
@@ -56,9 +74,7 @@ def left_to_go(block: Array, at: Pose, contact: int) -> tuple[float, int, int]:
         nx, ny = -dx, -dy
     way_i, value_i = _end(block, at, table.outline_i[contact], i, 0, f, g, -dx, -dy, -nx, -ny)
     way_j, value_j = _end(block, at, table.outline_j[contact], j, copy, g, f, dx, dy, nx, ny)
-    if value_i < value_j:
-        return value_i, 0, way_i
-    return value_j, 1, way_j
+    return way_i, value_i, way_j, value_j
 
 
 @jit

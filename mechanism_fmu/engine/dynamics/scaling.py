@@ -17,6 +17,7 @@ from ...tables.sizes import Sizes
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.kinematics import place_bodies
 from ..constraints.rows import active_rows
+from ..profiles.curves import curve, sample
 from ..scales import rate_scale
 from ..vectors import clear
 from .forces import apply_forces, set_time
@@ -43,8 +44,9 @@ _NOTHING = 2.0**-200
 def note_sizes(block: Array) -> None:
     """Write the scales of length and mass, from the bodies' start, and from the arms of the rows that are active.
 
-    The length of a body is the largest of its radius of gyration, of its arms, of the radius of its outlines, and of
-    a part of how far it is away. Of what is pinned in its middle the inertia counts in place of the mass.
+    The length of a body is the largest of its radius of gyration, of its arms, of the radius of its outlines and
+    profiles, and of a part of how far it is away. Of what is pinned in its middle the inertia counts in place of the
+    mass.
     """
     keep_apart()
     _note_arms(block)
@@ -85,7 +87,7 @@ def note_sizes(block: Array) -> None:
 
 @jit
 def _note_arms(block: Array) -> None:
-    """Let `loads.body_length` be the largest arm of each body's rows, points and outlines; and join bodies by rows.
+    """Let `loads.body_length` be the largest arm of each body's rows, points and shapes; and join bodies by rows.
 
     And the bodies' scale of rates, until it is one, the number of rows that hold their middle on the ground.
     """
@@ -117,6 +119,9 @@ def _note_arms(block: Array) -> None:
         for outline, b in ((table.outline_i[c], table.body_i[c]), (table.outline_j[c], table.body_j[c])):
             if outline != codes.NONE and 3 * b < n:
                 arms[b] = max(arms[b], Outlines(block).data[outline, codes.OUTLINE_RADIUS])
+        for profile, b in ((table.curve_i[c], table.body_i[c]), (table.curve_j[c], table.body_j[c])):
+            if profile != codes.NONE and 3 * b < n:
+                arms[b] = max(arms[b], curve(block, profile, sample(block, profile, 0, 1))[0])
         if table.kind[c] == codes.POINT_LINE:
             for point, b in ((table.data[c], table.body_i[c]), (table.line[c], table.body_j[c])):
                 if 3 * b < n:

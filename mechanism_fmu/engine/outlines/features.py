@@ -138,28 +138,15 @@ def is_hollow_corner(block: Array, feature: int) -> bool:
 def disc_radius(block: Array, outline: int, feature: int) -> float:
     """The radius of a feature that is a disc for others [m]: 0 of a corner; negative of one that is none.
 
-    Where an element goes over smoothly into a hollow arc, what lies flat on it ends: that place is a corner, too.
+    Where an element goes over smoothly into another is no corner: what is flat there and reaches beyond has struck the
+    hollow side already.
     """
-    keep_apart()
+    keep_small()
     table = Features(block)
-    if table.kind[feature] == codes.SEGMENT:
-        return -1.0
     if table.kind[feature] == codes.ARC:
         radius: float = table.data[feature, codes.FEATURE_RADIUS]
         return radius
-    if is_corner(block, feature):
-        return 0.0
-    if not is_hollow_corner(block, feature):
-        hollow = 0
-        for way in range(-1, 2, 2):
-            element = beside(block, outline, feature, way)
-            if element == codes.NONE:
-                element = over_seam(block, outline, feature, way)
-            if table.kind[element] == codes.ARC and table.data[element, codes.FEATURE_RADIUS] < 0.0:
-                hollow += 1
-        if hollow == 1:
-            return 0.0
-    return -1.0
+    return 0.0 if is_corner(block, feature) else -1.0
 
 
 @jit

@@ -53,6 +53,10 @@ EXACT = 2
 #: Nothing of this, but how deep one outline lies within the other (`outlines.overlap`), whatever is bound.
 OVERLAP = 3
 
+#: Of copies, which may be millions: how many times as far is looked where nothing has been found yet, and of how many
+#: it is enough to have looked that far.
+_FURTHER, _ENOUGH = 4.0, 100
+
 
 @jit
 def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
@@ -89,25 +93,28 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
         if mode == OVERLAP and distance > reach:
             return 0.0
         return float(_of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == OVERLAP else FAR))
-    margin: float = reach
-    if mode == EXACT:
-        margin = FAR
-    elif mode == OVERLAP:
-        margin = 0.0
-    first, last = _copies(block, other, mx, my, reach + margin)
-    best: float = margin
-    for k in range(first, last + 1):
-        if data[codes.OUTLINE_PITCH] == 0.0:
-            best = _of_copy(
-                block, contact, mode, k, c, s, x - k * data[codes.OUTLINE_DX], y - k * data[codes.OUTLINE_DY], best
-            )
-        else:
-            copy = wrapped(block, other, k)
-            st, ct = turning_of_copy(block, other, copy)
-            best = _of_copy(
-                block, contact, mode, copy, ct * c + st * s, ct * s - st * c, ct * x + st * y, ct * y - st * x, best
-            )
-    return best
+    margin: float = 0.0 if mode == OVERLAP else reach
+    enough = False
+    while True:
+        first, last = _copies(block, other, mx, my, reach + margin)
+        best = margin
+        for k in range(first, last + 1):
+            if data[codes.OUTLINE_PITCH] == 0.0:
+                best = _of_copy(
+                    block, contact, mode, k, c, s, x - k * data[codes.OUTLINE_DX], y - k * data[codes.OUTLINE_DY], best
+                )
+            else:
+                copy = wrapped(block, other, k)
+                st, ct = turning_of_copy(block, other, copy)
+                best = _of_copy(
+                    block, contact, mode, copy, ct * c + st * s, ct * s - st * c, ct * x + st * y, ct * y - st * x, best
+                )
+        if mode != EXACT or best < margin:
+            return best
+        if enough or margin >= FAR:
+            return FAR
+        enough = last - first >= _ENOUGH
+        margin = min(_FURTHER * margin, FAR)
 
 
 @jit

@@ -106,7 +106,7 @@ def accurate_step(block: Array, start: float) -> float:
 @jit
 def smallest_step(block: Array, start: float) -> float:
     """The size that a step from `start` [s] must exceed [s]; what hardly moves yet has a long time, but short steps."""
-    return _SMALLEST_STEP * max(min(1.0 / rate_scale(block), Stages(block).tried[1]), abs(start))
+    return _SMALLEST_STEP * max(min(1.0 / rate_scale(block), float(Stages(block).tried[1])), abs(start))
 
 
 @jit
