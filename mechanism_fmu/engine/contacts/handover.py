@@ -8,7 +8,7 @@ from ... import codes
 from ...tables.declare import Array
 from ...tables.motion import Pose, Rows
 from ...tables.parts import Contacts, Features, Outlines
-from ...tolerances import RESTS_BELOW, TOUCHES_WITHIN
+from ...tolerances import PASSES_BY, RESTS_BELOW, TOUCHES_WITHIN
 from ..compiler.subset import jit, keep_apart, keep_small
 from ..constraints.outline_row import outline_row, place_feature, turning_of
 from ..constraints.point_line import spare_row
@@ -121,16 +121,20 @@ def _end(
 
 
 @jit
-def _goes_on(block: Array, outline: int, corner: int, way: int, partner: int) -> bool:
-    """Whether what is beside a corner can touch what the corner touches: an arc, on a side; a side, on an arc.
+def _goes_on(block: Array, outline: int, feature: int, way: int, partner: int) -> bool:
+    """Whether what is behind the end of a feature can touch what that touches: an arc, on a side; a side, on an arc.
 
     A side that comes to lie on a side does not take over: its other end, or that of the other one, strikes. Nor does a
-    hollow take over, which the corner goes on to bridge.
+    hollow take over, which a corner goes on to bridge. In a hollow corner what touches goes on to do so.
     """
     keep_small()
-    follows = beside(block, outline, corner, way)
+    follows = beside(block, outline, feature, way)
     if follows == codes.NONE:
-        follows = over_seam(block, outline, corner, way)
+        follows = over_seam(block, outline, feature, way)
+    elif Features(block).kind[follows] == codes.VERTEX and not is_corner(block, follows):
+        if is_hollow_corner(block, follows):
+            return True
+        follows = beside(block, outline, follows, way)
     goes_on: bool = follows != codes.NONE and fits(block, follows, partner)
     return goes_on
 
@@ -157,7 +161,7 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     """
     keep_apart()
     table = Contacts(block)
-    _, side, way = left_to_go(block, at, contact)
+    side, way = _leaves(block, at, contact)
     outline = table.outline_i[contact] if side == 0 else table.outline_j[contact]
     leaves = table.feature_i[contact] if side == 0 else table.feature_j[contact]
     partner = table.feature_j[contact] if side == 0 else table.feature_i[contact]
@@ -187,6 +191,26 @@ def hand_over(block: Array, at: Pose, contact: int) -> None:
     table.mode[contact] = codes.OPEN
     table.touching[contact] = 0
     let_loose(block, contact)
+
+
+@jit
+def _leaves(block: Array, at: Pose, contact: int) -> tuple[int, int]:
+    """Of which side the place of contact leaves its feature, and which way: where both are at an end, what goes on.
+
+    What lies flat is at an end of the other side all the time, but for rounding.
+    """
+    keep_small()
+    table = Contacts(block)
+    way_i, value_i, way_j, value_j = _ends(block, at, contact)
+    f, g = table.feature_i[contact], table.feature_j[contact]
+    is_first = value_i < value_j
+    if max(value_i, value_j) < PASSES_BY * length_scale(block):
+        goes_i = _goes_on(block, table.outline_i[contact], f, way_i, g)
+        goes_j = _goes_on(block, table.outline_j[contact], g, way_j, f)
+        is_first = goes_i if goes_i != goes_j else is_first
+    if is_first:
+        return 0, way_i
+    return 1, way_j
 
 
 @jit

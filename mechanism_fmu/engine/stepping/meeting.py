@@ -26,8 +26,7 @@ _NEWTON_STEPS = 12
 #: where corners touch.
 _CORNERS_LOOKS = 64
 _CORNERS_PART = 0.2
-#: So far beyond the end of a feature a contact goes on to the next one, in scale: less than the normal may turn by, and
-#: more than the rounding by which what lies flat is at an end of the other side.
+#: So near to it a place of contact is at the end of a feature, in scale: what follows there goes on smoothly.
 _AT_THE_END = 0.1 * PASSES_BY
 #: The part of the way to the end of a feature from which on the slope there is measured.
 _CLOSE = 0.999
@@ -183,15 +182,14 @@ def refine_end(block: Array, contact: int, step_size: float) -> float:
     beyond, side, _ = left_to_go(block, place_at(block, fraction), contact)
     before = left_on_side(block, place_at(block, _CLOSE * fraction), contact, side)
     slope = (before - beyond) / ((1.0 - _CLOSE) * step_size)
-    at_the_end = _AT_THE_END * length_scale(block)
     size = step_size
     try_step(block, start, size)
     for _ in range(_NEWTON_STEPS):
         if not slope > 0.0:
             return size
-        left = left_on_side(block, place_bodies(block, s.y_new), contact, side) + at_the_end
+        left = left_on_side(block, place_bodies(block, s.y_new), contact, side)
         move = left / slope
-        if abs(left) <= 0.5 * at_the_end or not 0.0 < size + move <= step_size:
+        if abs(left) <= _AT_THE_END * length_scale(block) or not 0.0 < size + move <= step_size:
             return size
         size += move
         try_step(block, start, size)
