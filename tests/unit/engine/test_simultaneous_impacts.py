@@ -201,8 +201,9 @@ def obeys_newtons_law(heap, island, moved, hits):
     size = np.abs(own).max()
     change = heap.rows.T @ own / heap.masses
     np.testing.assert_allclose((after - heap.rates - change)[moved], 0.0, rtol=0, atol=1e-10 * max(1.0, size))
-    restitution = np.array([contact.restitution for contact in heap.mechanism.contacts])
-    excess = (heap.rows @ after - restitution * closing)[struck]
+    returned = np.array([contact.restitution for contact in heap.mechanism.contacts]) * closing
+    assume(not np.any((returned[struck] > 0.0) & (returned[struck] < 1e-5)))  # so slowly it may stay closed
+    excess = (heap.rows @ after - returned)[struck]
     assert own.min() >= -1e-10 * size
     assert not np.any(np.delete(own, struck))
     assert excess.min() >= -1e-9
