@@ -46,5 +46,5 @@ ACCELERATIONS_WITHIN = 1e-9
 SPEEDS_SHARE = 2e-12
 #: A row that a logical function closes may be off by this: mending would otherwise be a jump.
 CLOSES_WITHIN = 1e-6
-#: Position rows are closed when none is off by more than this.
+#: Position rows are closed when none is off by more than this; in kinematic analysis, of the size of the mechanism.
 CLOSED_WITHIN = 1e-12

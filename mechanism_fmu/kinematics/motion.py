@@ -10,7 +10,7 @@ import numpy as np
 
 from ..model import Mechanism
 from ..tolerances import CLOSED_WITHIN
-from .equations import Equations, FloatArray, KinematicsError, SingularConfigurationError, close
+from .equations import SHOWN, Equations, FloatArray, KinematicsError, SingularConfigurationError, close
 from .mobility import independence, moving, rows_around
 
 # Rates and accelerations in one position, where the rows determine them.
@@ -20,6 +20,8 @@ from .mobility import independence, moving, rows_around
 SINGULAR_BELOW = 1e-5
 #: The driver is at the end of its range when more than this part of nu points where the rows cannot follow.
 _OUT_OF_REACH = 1e-3
+#: Rates and accelerations agree with a row when they miss it by less than this part of the largest of them.
+_AGREE = 1e-8
 
 
 class State(NamedTuple):
@@ -52,16 +54,22 @@ def state_at(equations: Equations, q: FloatArray, time: float) -> State:
     least = least_singular_value(balanced)
     if least < SINGULAR_BELOW:
         raise _undetermined(equations, q, time, balanced)
-    qd = _solve(equations, rows.jacobian, rows.nu, time, "velocity")
+    qd = _solve(equations, rows.jacobian, rows.nu, time, "velocity", 0.0)
     gamma = equations.at(q, time, qd).gamma
-    return State(time, q, qd, _solve(equations, rows.jacobian, gamma, time, "acceleration"), balanced, least)
+    turns = float(np.square(equations.as_lengths(qd)).max(initial=0.0)) / equations.size
+    qdd = _solve(equations, rows.jacobian, gamma, time, "acceleration", turns)
+    return State(time, q, qd, qdd, balanced, least)
 
 
-def _solve(equations: Equations, jacobian: FloatArray, right: FloatArray, time: float, what: str) -> FloatArray:
-    solution: FloatArray = np.asarray(np.linalg.lstsq(jacobian, right, rcond=1e-12)[0], dtype=np.float64)
-    left = np.abs(jacobian @ solution - right)
-    if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(right).max(initial=0.0))):
-        worst = ", ".join(equations.rows[k] for k in np.argsort(-left)[:4] if left[k] > 1e-3 * left.max())
+def _solve(
+    equations: Equations, jacobian: FloatArray, right: FloatArray, time: float, what: str, terms: float
+) -> FloatArray:
+    """Rates or accelerations that agree with all rows, but for the rounding of these and of `terms` of such a size."""
+    solution, off = equations.solved(jacobian, right, 1e-12)
+    left = np.abs(off)
+    size = float(np.abs(equations.as_lengths(solution)).max(initial=0.0))
+    if left.max(initial=0.0) > _AGREE * max(size, terms):
+        worst = ", ".join(equations.rows[k] for k in np.argsort(-left)[:4] if left[k] > SHOWN * left.max())
         raise KinematicsError(
             f"At t = {time:.9g} s no {what} agrees with all rows: {worst} differ by {left.max():.3g}. Drivers "
             "contradict each other; take one out, or let their motions agree at all times."
@@ -144,8 +152,10 @@ def _is_same_motion(equations: Equations, here: State, q: FloatArray, time: floa
 
 
 def _lost(equations: Equations, here: State, q: FloatArray, time: float) -> KinematicsError:
-    residual = np.abs(equations.at(q, time).residual)
-    worst = [equations.rows[k] for k in np.argsort(-residual)[:4] if residual[k] > CLOSED_WITHIN]
+    rows = equations.at(q, time)
+    residual = np.abs(rows.residual)
+    is_open = equations.most_open(rows.residual, rows.jacobian) > CLOSED_WITHIN
+    worst = [equations.rows[k] for k in np.argsort(-residual)[:4] if is_open and residual[k] > SHOWN * residual.max()]
     what = f"{', '.join(worst)} stay open by {residual.max():.3g} (m, or rad)" if worst else "the next one is far away"
     return KinematicsError(
         f"Behind t = {here.time:.9g} s no position is found that goes on from there: {what}. A profile has an edge, "

@@ -24,7 +24,7 @@ from mechanism_fmu.model import (
 from mechanism_fmu.simulation import simulate
 
 
-@pytest.mark.parametrize("off", [0.0, 5e-17, 1e-12])
+@pytest.mark.parametrize("off", [0.0, 5e-17, 1e-13, 1e-10])
 def test_a_brake_on_a_wheel_pinned_beside_its_middle(off):
     """The arm of the pin is no size of a wheel with a radius of gyration of 1 um."""
     wheel = rigid_body("wheel", (0, 0), mass=1, inertia=1e-12)

@@ -22,8 +22,9 @@ from ..case import Case, Known, Origin, Run, impacts_until, steps_of
 
 GRAVITY, HEIGHT, RESTITUTION = 9.81, 1.0, 0.7
 _COUNTED = (1, 2, 5, 10, 15)
-#: Of a ball with a radius of gyration of 1 m that falls, over what has scale 1 (`engine.dynamics.scaling`).
-_SPEED_SCALE = math.sqrt(GRAVITY) / (LENGTH * RATE)
+#: What leaves the floor more slowly rests [m/s]: of a ball with a radius of gyration of 1 m that falls, over what has
+#: scale 1 (`engine.dynamics.scaling`).
+RESTS = STICK_SPEED * math.sqrt(GRAVITY) / (LENGTH * RATE)
 
 
 def ball(tolerance: float) -> Mechanism:
@@ -55,15 +56,18 @@ def impact(number: int) -> tuple[float, float]:
     return time, GRAVITY * FALL * RESTITUTION ** (number - 1)
 
 
+#: The impact after which it rests.
+LAST = next(number for number in count(1) if RESTITUTION * impact(number)[1] < RESTS)
+
+
 def _known() -> Iterator[Known]:
     exact: Origin = "closed form"
     for number in _COUNTED:
         time, speed = impact(number)
         yield Known(f"time of impact {number}", "s", time, exact)
         yield Known(f"closing speed of impact {number}", "m/s", speed, exact)
-    last = next(number for number in count(1) if RESTITUTION * impact(number)[1] < _SPEED_SCALE * STICK_SPEED)
-    yield Known("number of impacts", "1", last, exact)
-    yield Known("time of the last impact, then rest", "s", impact(last)[0], exact)
+    yield Known("number of impacts", "1", LAST, exact)
+    yield Known("time of the last impact, then rest", "s", impact(LAST)[0], exact)
     yield Known("energy lost, over m g h", "1", 1.0, exact)
     yield Known("force on the floor at rest", "N", GRAVITY, exact)
 
@@ -80,7 +84,8 @@ CASE = Case(
     model=ball,
     within=1e-12,
     remark=(
-        "The series has its end at 2.558634 s. A ball that leaves the floor with less than 1e-6 m/s is taken for "
-        "resting: so it does after impact 43, 6.6e-7 s before that end."
+        f"The series has its end at {END:.6f} s. A ball that leaves the floor with less than {RESTS:.1e} m/s, 1e-7 of "
+        f"its own scale of speeds, is taken for resting: so it does after impact {LAST}, "
+        f"{END - impact(LAST)[0]:.1e} s before that end."
     ),
 )

@@ -294,10 +294,9 @@ CASE = Case(
         "Dynamics of the verge and foliot clock escapement, arXiv:1604.06681, whose abstract has this exponent; "
         "their other one, \u22121/3 at large torques, is that of a torque that changes its sign at two angles, "
         "without wheel and blows, and here it is \u22121/2.\n\n"
-        "What is left at tight tolerances is no error of integration: a tooth is let go at the end of the face or up "
-        "to 7e-11 m behind it, because the engine goes from a face to its corner, and leaves that, by margins of up "
-        "to 1e-10 m. The formulas give the period 1.4e-9 more for that much more of a face. Blows of the clock that "
-        "bounces, none of which is near the end of a face, are exact to the last digits."
+        "What is left at tight tolerances is no error of integration: the engine goes from a face to its corner, and "
+        "leaves that, by margins of up to 1e-10 of the mechanism's length. Blows of the clock that bounces, none of "
+        "which is near the end of a face, are exact to the last digits."
     ),
     drawings=drawings,
 )

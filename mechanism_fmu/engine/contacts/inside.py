@@ -24,7 +24,7 @@ def is_too_deep(block: Array, at: Pose, contact: int, distance: float, rate: flo
     """Whether a gap is farther below zero than where a contact may have been left.
 
     That is what touches, and more far from the origin, where the gap is a small difference of large numbers, and at
-    high speed, because an impact is found within `ROOT_TOLERANCE`: at 10 m/s within 1e-12 m. Where logical functions
+    high speed, because an impact is found within `ROOT_TOLERANCE` of the mechanism's time. Where logical functions
     close rows, mending moves bodies by as much as these may be off.
     """
     keep_apart()
