@@ -140,8 +140,8 @@ CASE = Case(
         "Tables of textbooks with these peaks could not be opened, so that none of their digits is called published. "
         "The engine finds the entry 1.4 to 2.0e-9 rad late, at any tolerance: a logical function counts a boundary as "
         "passed when it is passed by 1e-9 of the mechanism's length. The acceleration at entry, which rises from there "
-        "at once, is off by 4e-9 for the same reason; all other values follow the tolerance. The largest acceleration and its place are "
-        "those of a polynomial through 21 accelerations around it."
+        "at once, is off by 4e-9 for the same reason; all other values follow the tolerance. The largest acceleration "
+        "and its place are those of a polynomial through 21 accelerations around it."
     ),
     drawings=drawings,
 )
