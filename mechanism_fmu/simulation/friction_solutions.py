@@ -115,7 +115,7 @@ class _Search:
         self._slip[list(self._rubbing)] = codes.FORWARDS
         speeds = self._values()
         length, _, _, rate = field_of(self._block, "scales").tolist()
-        units = {k: rate * (1.0 if turns(mechanism.rubbing[k]) else length) for k in self._rubbing}
+        units = {k: (rate or 1.0) * (1.0 if turns(mechanism.rubbing[k]) else length) for k in self._rubbing}
         self._slips = {
             k: _possible(speeds[f"{name}.slip_speed"], SLIPS_ABOVE * units[k]) for k, name in self._rubbing.items()
         }
