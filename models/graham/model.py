@@ -58,8 +58,8 @@ OUTPUTS = timekeeping_outputs("pendulum", "theta", energy=1e-2, power=1e-3)
 
 PARAMETERS = (
     ports.inertia_parameter("wheel_inertia", 2e-5, "Moment of inertia of the escape wheel about its axis"),
-    ports.length_parameter("tip_radius", "0.2 mm", "Radius of the tips", usual=(5e-5, 4e-4)),
-    ports.length_parameter("pallet_thickness", "2.6 mm", "Between both dead arcs", usual=(2e-3, 3e-3)),
+    ports.length_parameter("tip_radius", "0.2 mm", "Radius of the tips", 1e-6, usual=(5e-5, 4e-4)),
+    ports.length_parameter("pallet_thickness", "2.6 mm", "Between both dead arcs", 1e-6, usual=(2e-3, 3e-3)),
     ports.angle_parameter("lift_angle", "2 deg", "Over which a tooth pushes a pallet", 1e-3, 0.1),
     ports.angle_parameter("lock_angle", "1 deg", "By which a tooth drops onto its dead arc", 0.0, 0.1),
     *pendulum_parameters(0.98963, damping=0.05, start="-3.8 deg"),

@@ -59,7 +59,7 @@ PARAMETERS = (
     ports.inertia_parameter("balance_inertia", 2e-4, "Moment of inertia of balance and pins about the staff"),
     Parameter("frequency", 2.53, "Frequency of balance and hairspring alone", "Hz", 0.1, 100.0, usual=(1.0, 5.0)),
     Parameter("quality", 10.0, "Quality factor of balance and hairspring alone", "1", 1.0, 1e5, usual=(5.0, 300.0)),
-    ports.length_parameter("pin_radius", "0.4 mm", "Radius of the pins", usual=(2e-4, 7e-4)),
+    ports.length_parameter("pin_radius", "0.4 mm", "Radius of the pins", 1e-5, usual=(2e-4, 7e-4)),
     ports.angle_parameter("balance_angle_start", "-4.9 deg", "Angle of the balance at the start", -0.6, 0.6),
     nominal_period_parameter(0.4),
     *ports.settings_parameters(),

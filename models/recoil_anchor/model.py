@@ -60,7 +60,7 @@ OUTPUTS = timekeeping_outputs("pendulum", "theta", energy=1e-2, power=1e-3)
 
 PARAMETERS = (
     ports.inertia_parameter("wheel_inertia", 2e-5, "Moment of inertia of the escape wheel about its axis"),
-    ports.length_parameter("tip_radius", "0.2 mm", "Radius of the tips", usual=(5e-5, 4e-4)),
+    ports.length_parameter("tip_radius", "0.2 mm", "Radius of the tips", 1e-6, usual=(5e-5, 4e-4)),
     ports.length_parameter(
         "pallet_thickness", "2.2 mm", "Between circles about the arbor at which teeth leave", 1e-6, usual=(2e-3, 2.7e-3)
     ),

@@ -54,7 +54,7 @@ OUTPUTS = timekeeping_outputs("foliot", "theta", energy=1e-3, power=1e-3)
 PARAMETERS = (
     ports.inertia_parameter("wheel_inertia", 2e-5, "Moment of inertia of the crown wheel with its teeth"),
     ports.inertia_parameter("foliot_inertia", 2e-5, "Moment of inertia of verge and foliot"),
-    ports.length_parameter("tip_radius", "0.2 mm", "Radius of the teeth's tips", usual=(1e-4, 4e-4)),
+    ports.length_parameter("tip_radius", "0.2 mm", "Radius of the teeth's tips", 1e-6, usual=(1e-4, 4e-4)),
     nominal_period_parameter(1.0),
     *ports.settings_parameters(),
 )

@@ -10,12 +10,14 @@ from mechanism_fmu.model import (
     AngleDriver,
     AngleStop,
     Brake,
+    Distance,
     LinearCopies,
     Mechanism,
     Outline,
     OutlineContact,
     PointLineContact,
     Revolute,
+    Settings,
     Torque,
     bar,
     rigid_body,
@@ -128,3 +130,21 @@ def test_a_rounded_pin_goes_round_the_end_of_a_slot_and_comes_back():
     turning = ends[1] - ends[0]
     np.testing.assert_allclose(np.diff(ends), ([turning, 2 * reached] * len(ends))[: len(ends) - 1], rtol=1e-6)
     assert result["pin_x"].max() == pytest.approx(start, abs=1e-9)
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-7])
+def test_what_hangs_and_strikes_at_a_loose_tolerance(tolerance):
+    """Mending of a thread, which has drifted by more than what touches, moves a ball into what it strikes."""
+    balls = tuple(
+        rigid_body(name, (x, -0.1), mass=0.1, inertia=5e-6, velocity=(speed, 0.0))
+        for name, x, speed in (("one", 0.0, 0.3), ("other", 0.0205, 0.0))
+    )
+    threads = tuple(
+        Distance(f"thread_{ball.name}", GROUND.at(x, 0), ball.at(0, 0), distance=0.1)
+        for ball, x in zip(balls, (0.0, 0.0205), strict=True)
+    )
+    shape = Outline.circle(0.01)
+    pair = OutlineContact("pair", balls[0], balls[1], outline_i=shape, outline_j=shape, restitution=1.0)
+    mechanism = Mechanism(balls, threads, contacts=(pair,), gravity=(0, -9.81), settings=Settings(tolerance))
+    result = simulate(mechanism, until=2.0, step=0.1)
+    assert [hit.contact for hit in result.impacts[:4]] == ["pair"] * 4

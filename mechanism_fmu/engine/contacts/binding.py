@@ -181,15 +181,16 @@ def _is_past(
 
 
 @jit
-def deepest_overlap(block: Array, at: Pose) -> tuple[int, float]:
+def deepest_overlap(block: Array, at: Pose, drift: float) -> tuple[int, float]:
     """The contact of the outlines that reach deepest into each other, and how deep [m]; `codes.NONE` where none does.
 
-    Whatever is bound, held or known to be apart: an independent watch (`outlines.overlap`).
+    Whatever is bound, held or known to be apart: an independent watch (`outlines.overlap`). Places are known to what
+    rows have drifted by, in the scale of lengths.
     """
     keep_apart()
     table = Contacts(block)
     found = codes.NONE
-    least = -OVERLAPS * length_scale(block)
+    least = -(OVERLAPS + drift) * length_scale(block)
     for c in range(table.mode.shape[0]):
         if is_outline(block, c) and table.group[c] == c and table.value[c, codes.ENABLED] > 0.5:
             gap = nearest(block, at, c, OVERLAP)

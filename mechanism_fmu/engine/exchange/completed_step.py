@@ -82,7 +82,7 @@ def look_through(block: Array) -> int:
                 blame(block, c, -depth)
                 return status.PASSED_OVER
     if Sizes(block).outlines > 0:
-        contact, overlap = deepest_overlap(block, at)
+        contact, overlap = deepest_overlap(block, at, 0.0)
         if contact != codes.NONE and overlap > 2.0 * unseen(block, contact):
             blame(block, contact, -overlap)
             return status.PASSED_OVER

@@ -54,7 +54,7 @@ def start(block: Array, time: float) -> int:
         return status.START_RATES
     at = place_bodies(block, Course(block).y_end)
     if Sizes(block).outlines > 0:
-        contact, depth = deepest_overlap(block, at)
+        contact, depth = deepest_overlap(block, at, 0.0)
         if contact != codes.NONE:
             _blame(block, contact, -depth)
             return status.START_INSIDE

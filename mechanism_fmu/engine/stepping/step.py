@@ -268,12 +268,13 @@ def _mend_and_check(block: Array) -> int:
     drift = Stages(block).drift
     # a rate that is off leads farther in a long step
     most_rate = MOST_RATE_DRIFT / max(1.0, now.clock[codes.STEP_SIZE] * rate_scale(block))
+    off = drift[0]
     drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= most_rate * rate_scale(block))
     mends = not closes_step(block) and (drifted or Sizes(block).alphas > 0)
     if mends and mend(block, MOST_DRIFT, most_rate):
         derivative(block, now.y_end, now.dy_end)
     if Sizes(block).outlines > 0:
-        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end))
+        contact, depth = deepest_overlap(block, place_bodies(block, now.y_end), off)
         if contact != codes.NONE:
             blame(block, contact, -depth)
             return status.PENETRATED

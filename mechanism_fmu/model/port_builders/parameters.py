@@ -11,9 +11,9 @@ from ..quantities import quantity
 
 
 def length_parameter(
-    name: str, start: float | str, description: str, minimum: float = 1e-12, *, usual: Range | None = None
+    name: str, start: float | str, description: str, minimum: float = 1e-9, *, usual: Range | None = None
 ) -> Parameter:
-    """A length [m], from `minimum` to 1000 km; not zero if nothing else is said.
+    """A length [m], from `minimum` to 1 km; not zero if nothing else is said.
 
     Args:
         name: as of `Parameter`.
@@ -22,7 +22,7 @@ def length_parameter(
         minimum: least value [m].
         usual: as of `Parameter`.
     """
-    return Parameter(name, quantity(start, "m", f"{name}: start"), description, "m", minimum, 1e6, usual=usual)
+    return Parameter(name, quantity(start, "m", f"{name}: start"), description, "m", minimum, 1e3, usual=usual)
 
 
 def angle_parameter(
@@ -85,7 +85,7 @@ def mass_parameter(name: str, start: float | str, description: str) -> Parameter
         description: as of `Parameter`.
         start: default value [kg], or a text with a unit of its kind, e.g. "20 g".
     """
-    return Parameter(name, quantity(start, "kg", f"{name}: start"), description, "kg", 1e-18, 1e15)
+    return Parameter(name, quantity(start, "kg", f"{name}: start"), description, "kg", 1e-18, 1e9)
 
 
 def inertia_parameter(name: str, start: float | str, description: str) -> Parameter:
@@ -96,7 +96,7 @@ def inertia_parameter(name: str, start: float | str, description: str) -> Parame
         description: as of `Parameter`.
         start: default value [kg.m2], or a text with a unit of its kind, e.g. "20 kg.cm2".
     """
-    return Parameter(name, quantity(start, "kg.m2", f"{name}: start"), description, "kg.m2", 1e-42, 1e27)
+    return Parameter(name, quantity(start, "kg.m2", f"{name}: start"), description, "kg.m2", 1e-30, 1e12)
 
 
 def stiffness_parameter(name: str, start: float | str, description: str, *, usual: Range | None = None) -> Parameter:

@@ -28,7 +28,7 @@ from own_file import change, refused, refused_at
             'feedthrough=("motor_torque")',
             "feedthrough is 'motor_torque', but it must be a tuple",
         ),
-        ('"length", 0.2', '"length", 2e6', "length = 2e+06 m is above its limit; give at most 1e+06 m."),
+        ('"length", 0.2', '"length", 2e3', "length = 2000 m is above its limit; give at most 1000 m."),
         (
             '"length", 0.2',
             '"length", "0.2"',
