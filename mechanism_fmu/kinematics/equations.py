@@ -134,13 +134,15 @@ class Equations:
         change: FloatArray = np.asarray(np.linalg.lstsq(rows, right, rcond=part)[0], dtype=np.float64)
         return change * self._columns, rows @ change - right
 
-    def most_open(self, residual: FloatArray, jacobian: FloatArray) -> float:
+    def most_open(self, residual: FloatArray, jacobian: FloatArray, q: FloatArray) -> float:
         """The most that a row is off, over what it changes by where the coordinates move by the mechanism's size.
 
-        Of the residual, shape (rows,), and Phi_q, shape (rows, coordinates); infinite when one is no number.
+        Of the residual, shape (rows,), and Phi_q, shape (rows, coordinates), at coordinates q; infinite when one is no
+        number. Far from the origin, where places are rounded, the size is a part of how far.
         """
-        change = self.size * np.abs(jacobian * self._columns).max(axis=1, initial=0.0)
-        left = np.abs(residual) / np.where(change > 0.0, change, self.size)
+        size = max(self.size, _FAR * float(np.abs(q[~self.angular]).max(initial=0.0)))
+        change = size * np.abs(jacobian * self._columns).max(axis=1, initial=0.0)
+        left = np.abs(residual) / np.where(change > 0.0, change, size)
         return float(left.max(initial=0.0)) if np.isfinite(left).all() else np.inf
 
     def as_lengths(self, step: FloatArray) -> FloatArray:
@@ -174,6 +176,8 @@ class Equations:
 # Newton's method for the position rows.
 
 _STEPS = 40
+#: This part of the distance from the origin is a size at least: a row is then closed to 1000 times its rounding.
+_FAR = 2.0**-12
 #: Of rows that stay open, those are named that are off by more than this part of the worst one.
 SHOWN = 1e-3
 
@@ -199,7 +203,7 @@ def newton(
     best, least = q, np.inf
     for _ in range(_STEPS):
         residual, jacobian = rows_at(q)
-        left = equations.most_open(residual, jacobian)
+        left = equations.most_open(residual, jacobian, q)
         if not left < np.inf:
             break
         settled = least <= CLOSED_WITHIN

@@ -28,7 +28,7 @@ from mechanism_fmu.simulation import simulate
 
 @pytest.mark.parametrize("off", [0.0, 5e-17, 1e-13, 1e-10])
 def test_a_brake_on_a_wheel_pinned_beside_its_middle(off):
-    """The arm of the pin is no size of a wheel with a radius of gyration of 1 um."""
+    """A wheel with a radius of gyration of 1 um, whose pin is off by rounding, and by more."""
     wheel = rigid_body("wheel", (0, 0), mass=1, inertia=1e-12)
     forces = (Torque("torque", wheel, torque=2e-12), Brake("brake", wheel, limit=1e-12))
     mechanism = Mechanism((wheel,), (Revolute("pin", wheel.at(off, 0), GROUND.at(off, 0)),), forces)
@@ -39,7 +39,7 @@ def test_a_brake_on_a_wheel_pinned_beside_its_middle(off):
 def driven(start):
     """A ball that falls from 0.1 m beside a crank whose driver goes by a table, from a start time on [s]."""
     crank = bar("crank", (0, 0), length=0.1, angle=0.0, mass=1.0)
-    table = table_motion([(0.1 * k, 0.2 * k + 0.1 * k % 2) for k in range(12)])
+    table = table_motion([(0.1 * k, 0.2 * k + 0.1 * (k % 2)) for k in range(12)])
     ball = rigid_body("ball", (1, 0.1), mass=1.0, inertia=0.1)
     floor = PointLineContact("floor", ball.at(0, 0), GROUND.line((0, 0), (1, 0)), restitution=0.5)
     joints = (Revolute("pin", crank.a, GROUND.at(0, 0)), AngleDriver("driver", crank, motion=table))
@@ -87,16 +87,20 @@ def bouncing(crane):
 
 def test_outlines_beside_a_crane_bounce_as_often_as_alone():
     alone, beside = bouncing(False), bouncing(True)
-    assert len(alone) == len(beside)
+    assert len(alone) == len(beside) > 5
     np.testing.assert_allclose(beside, alone, rtol=1e-5, atol=0)
 
 
 @pytest.mark.parametrize("end", [(0.0, 0.0), (0.0, 0.02), (0.05, 0.0)])
-def test_copies_that_join_at_the_origin_of_their_body(end):
-    """A disc slides over teeth without corners between, wherever on its body the line of copies ends."""
+@pytest.mark.parametrize("angle", [0.0, math.pi / 2])
+def test_copies_that_join_at_the_origin_of_their_body(end, angle):
+    """A disc slides over teeth without corners between, wherever on its body the line of copies ends.
+
+    Also on the place where the two arcs of its circle join.
+    """
     x, y = end
     floor = Outline.chain([(x, y), (x - 0.1, y)])
-    puck = rigid_body("puck", (0.25, y + 0.01), mass=1.0, inertia=1e-4, velocity=(1.0, 0.0))
+    puck = rigid_body("puck", (0.25, y + 0.01), mass=1.0, inertia=1e-4, angle=angle, velocity=(1.0, 0.0))
     copies = LinearCopies((0.1, 0.0))
     touch = OutlineContact("touch", puck, GROUND, outline_i=Outline.circle(0.01), outline_j=floor, copies=copies)
     result = simulate(Mechanism((puck,), contacts=(touch,), gravity=(0, -9.81)), until=0.5, step=0.1)
@@ -111,7 +115,7 @@ def test_a_rounded_pin_goes_round_the_end_of_a_slot_and_comes_back():
     A pin that lies flat slides there, climbs the round end by its front, and comes back with the energy that it had:
     without friction, the same speed at the same place.
     """
-    r, a, b = 0.0075, 0.0175, 0.025
+    a, b = 0.0175, 0.025
     quarter = math.tan(math.pi / 8)
     corners = [(b, a), (a, b), (-a, b), (-b, a), (-b, -a), (-a, -b), (a, -b), (b, -a)]
     pin_shape = Outline([(*at, quarter if k % 2 == 0 else 0.0) for k, at in enumerate(corners)])
@@ -120,16 +124,18 @@ def test_a_rounded_pin_goes_round_the_end_of_a_slot_and_comes_back():
     pin = rigid_body("pin", (start, b - 0.03), mass=0.25, inertia=1e-4)
     touch = OutlineContact("slot", pin, GROUND, outline_i=pin_shape, outline_j=slot)
     mechanism = Mechanism((pin,), contacts=(touch,), gravity=(-2.0, -9.81))
-    assert r == b - a
     reached = math.sqrt(2 * (start - a + 0.1) / 2.0)
-    result = simulate(mechanism, until=4.5 * reached, step=reached / 100)
+    result = simulate(mechanism, until=7 * reached, step=reached / 100)
     ends = [event.time for event in result.events]
     assert all(event.guard.endswith("handover") for event in result.events), ends
     assert len(result.impacts) == 0
     assert ends[0] == pytest.approx(reached, rel=1e-9)
     turning = ends[1] - ends[0]
-    np.testing.assert_allclose(np.diff(ends), ([turning, 2 * reached] * len(ends))[: len(ends) - 1], rtol=1e-6)
-    assert result["pin_x"].max() == pytest.approx(start, abs=1e-9)
+    np.testing.assert_allclose(np.diff(ends), [turning, 2 * reached, turning][: len(ends) - 1], rtol=1e-6)
+    assert len(ends) >= 3
+    top = np.argmax(result["pin_x"][50:]) + 50  # back where it started, between the second and the third hand-over
+    assert result["pin_x"][top] == pytest.approx(start, abs=1e-5)
+    assert ends[1] < result["time"][top] < ends[2]
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-5, 1e-7])

@@ -135,6 +135,8 @@ def _goes_on(block: Array, outline: int, feature: int, way: int, partner: int) -
         if is_hollow_corner(block, follows):
             return True
         follows = beside(block, outline, follows, way)
+        if follows == codes.NONE:
+            follows = over_seam(block, outline, feature, way)
     goes_on: bool = follows != codes.NONE and fits(block, follows, partner)
     return goes_on
 
@@ -204,7 +206,8 @@ def _leaves(block: Array, at: Pose, contact: int) -> tuple[int, int]:
     way_i, value_i, way_j, value_j = _ends(block, at, contact)
     f, g = table.feature_i[contact], table.feature_j[contact]
     is_first = value_i < value_j
-    if max(value_i, value_j) < PASSES_BY * length_scale(block):
+    near = PASSES_BY * length_scale(block)
+    if max(value_i, value_j) < near and min(value_i, value_j) > -0.5 * near:
         goes_i = _goes_on(block, table.outline_i[contact], f, way_i, g)
         goes_j = _goes_on(block, table.outline_j[contact], g, way_j, f)
         is_first = goes_i if goes_i != goes_j else is_first

@@ -31,7 +31,7 @@ LENGTH, RATE, _MASS = 0.1, 0.9578262852211513, 3.2794799999999995
 #: This part of the distance from the origin is a length at least: the noise of a gap is then 10 times its rounding.
 _FAR = 2.0**-12
 #: A row that acts so near to the middle of a body, in parts of its radius of gyration, acts there: that arm is no size.
-_IN_MIDDLE = 2.0**-20
+_IN_MIDDLE = 2.0**-17
 #: From one event to the next, what acts is taken to fall to this part at most: what is left at rest is rounding.
 _FALLS = 2.0**-10
 #: What moves so many times more slowly than the scale of rates says has a slower one.

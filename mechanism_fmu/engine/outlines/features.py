@@ -135,7 +135,7 @@ def is_hollow_corner(block: Array, feature: int) -> bool:
 
 
 @jit
-def disc_radius(block: Array, outline: int, feature: int) -> float:
+def disc_radius(block: Array, feature: int) -> float:
     """The radius of a feature that is a disc for others [m]: 0 of a corner; negative of one that is none.
 
     Where an element goes over smoothly into another is no corner: what is flat there and reaches beyond has struck the
@@ -272,7 +272,6 @@ def corners_face(block: Array, corner: int, other: int, c: float, s: float, px: 
     dx, dy = px - data[codes.FEATURE_X], py - data[codes.FEATURE_Y]
     if not _is_beyond(block, other, dx, dy):
         return False
-    # where a hollow arc begins smoothly, nothing is beside it
     return not is_corner(block, corner) or _is_beyond(block, corner, -c * dx - s * dy, s * dx - c * dy)
 
 

@@ -66,13 +66,13 @@ def is_held(
             continue
         if table.copy[k] != copy:  # what it is in another copy is another thing
             same = own == disc if side == 0 else its == feature
-            goes_on = (same or disc_radius(block, one, own) >= 0.0) and _goes_on_in_copy(
+            goes_on = (same or disc_radius(block, own) >= 0.0) and _goes_on_in_copy(
                 block, contact, copy, side, disc, feature, k
             )
             if goes_on:
                 return HELD_PAIR
             continue
-        same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, one, own) >= 0.0
+        same = own == disc or _is_one_circle(block, its, feature) or disc_radius(block, own) >= 0.0
         at_one_place = _is_at(block, disc, its, px, py) and _faces(block, its, own, c, s)
         if not at_one_place and not (fits(block, own, feature) and fits(block, disc, its)):
             continue  # a hollow arc, which something flatter bridges

@@ -48,7 +48,7 @@ MEETS = -1
 NEXT = 0
 #: The same without those places.
 FREE = 1
-#: The same, however far.
+#: The same, as far as anything may be found.
 EXACT = 2
 #: Nothing of this, but how deep one outline lies within the other (`outlines.overlap`), whatever is bound.
 OVERLAP = 3
@@ -94,6 +94,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
             return 0.0
         return float(_of_copy(block, contact, mode, 0, c, s, x, y, 0.0 if mode == OVERLAP else FAR))
     margin: float = 0.0 if mode == OVERLAP else reach
+    many = min(_ENOUGH, outlines.copies[other] - 1)
     enough = False
     while True:
         first, last = _copies(block, other, mx, my, reach + margin)
@@ -113,7 +114,7 @@ def nearest(block: Array, at: Pose, contact: int, mode: int) -> float:
             return best
         if enough or margin >= FAR:
             return FAR
-        enough = last - first >= _ENOUGH
+        enough = last - first >= many
         margin = min(_FURTHER * margin, FAR)
 
 
@@ -210,7 +211,7 @@ def _of_discs(
         within = best + radius + around[codes.OUTLINE_RADIUS]
         if dx * dx + dy * dy > within * within:
             continue
-        smooth = disc_radius(block, one, f) < 0.0
+        smooth = disc_radius(block, f) < 0.0
         if smooth and mode != NEXT:
             continue
         found, gap = _of_disc(block, contact, mode, copy, side, one, other, f, c, s, px, py, radius, best)

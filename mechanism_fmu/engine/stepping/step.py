@@ -10,6 +10,7 @@ from ...tables.method import METHOD
 from ...tables.motion import Course, Implicit, Stages
 from ...tables.parts import Contacts, Options, Thresholds
 from ...tables.sizes import Sizes
+from ...tolerances import CLOSES_WITHIN
 from .. import status
 from ..compiler.subset import jit, keep_small
 from ..constraints.kinematics import place_bodies
@@ -268,7 +269,7 @@ def _mend_and_check(block: Array) -> int:
     drift = Stages(block).drift
     # a rate that is off leads farther in a long step
     most_rate = MOST_RATE_DRIFT / max(1.0, now.clock[codes.STEP_SIZE] * rate_scale(block))
-    off = drift[0]
+    off = min(drift[0], CLOSES_WITHIN)
     drifted = not (drift[0] <= MOST_DRIFT and drift[1] <= most_rate * rate_scale(block))
     mends = not closes_step(block) and (drifted or Sizes(block).alphas > 0)
     if mends and mend(block, MOST_DRIFT, most_rate):

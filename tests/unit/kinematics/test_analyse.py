@@ -184,20 +184,38 @@ def test_angles_do_not_know_of_metres_and_seconds(scale, speed):
         np.testing.assert_allclose(one / speed**order, other, rtol=0, atol=1e-11)
 
 
-def four_bar_of(scale, speed):
-    """A crank-rocker whose ground is 0.2 long, times a scale [m]; its crank turns at a speed [rad/s]."""
+def four_bar_of(scale, speed, far=0.0):
+    """A crank-rocker whose ground is 0.2 long, times a scale, and so far away [m]; its crank has a speed [rad/s]."""
     crank, coupler, rocker = (
-        rigid_body(name, (scale * x, scale * y), mass=1, inertia=scale**2, angle=angle)
+        rigid_body(name, (far + scale * x, scale * y), mass=1, inertia=scale**2, angle=angle)
         for name, x, y, angle in (("crank", 0, 0, 0.5), ("coupler", 0.088, 0.048, 0.9), ("rocker", 0.2, 0, 1.6))
     )
     joints = (
-        Revolute("a0", crank.at(0, 0), GROUND.at(0, 0)),
+        Revolute("a0", crank.at(0, 0), GROUND.at(far, 0)),
         Revolute("a", crank.at(0.1 * scale, 0), coupler.at(0, 0)),
         Revolute("b", coupler.at(0.25 * scale, 0), rocker.at(0.22 * scale, 0)),
-        Revolute("b0", rocker.at(0, 0), GROUND.at(0.2 * scale, 0)),
+        Revolute("b0", rocker.at(0, 0), GROUND.at(far + 0.2 * scale, 0)),
         AngleDriver("drive", crank, motion=polynomial_motion(0.5, speed)),
     )
     return Mechanism((crank, coupler, rocker), joints)
+
+
+@pytest.mark.parametrize("far", [1.0, 1e3, 1e6])
+def test_a_linkage_far_from_the_origin_has_the_same_angles(far):
+    """As far as places there are rounded."""
+    times = np.linspace(0.0, 6.0, 13)
+    known = analyse(four_bar_of(1e-3, 1.0), times).of("rocker.angle")[0]
+    found = analyse(four_bar_of(1e-3, 1.0, far * 1e-3), times).of("rocker.angle")[0]
+    np.testing.assert_allclose(found, known, rtol=0, atol=1e-14 * far + 1e-12)
+
+
+@pytest.mark.parametrize("times", [[0.0, math.pi / 4], [0.0, 1.0, 2.0]])
+def test_drivers_that_agree_do_no_harm_where_they_turn_back(times):
+    """Where both stand, their speeds differ by rounding."""
+    motions = [harmonic_motion(0.4, 0.5, 2.0, 0.5 * math.pi + turn) for turn in (0.0, math.tau)]
+    drivers = [AngleDriver(f"drive{k}", f"crank{k}", motion=motion) for k, motion in enumerate(motions)]
+    motion = analyse(driven(parallel_cranks(2, 0.9), *drivers), times)
+    np.testing.assert_allclose(motion.of("crank1.angle")[0], 0.4 + 0.5 * np.cos(2.0 * motion.time), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("speed", [1e-9, 1.0, 1e6])
