@@ -95,7 +95,7 @@ class Equations:
         if outcome != status.OK:
             left = np.abs(self.at(q, time).residual)
             worst = ", ".join(
-                f"{self.rows[k]} by {left[k]:.4g}" for k in np.argsort(-left)[:4] if left[k] > CLOSED_WITHIN
+                f"{self.rows[k]} by {left[k]:.4g}" for k in np.argsort(-left)[:4] if left[k] > SHOWN * left.max()
             )
             raise KinematicsError(
                 f"The mechanism cannot be assembled at t = {time:g} s from its start guess. Left open: {worst} "
@@ -120,6 +120,30 @@ class Equations:
         lengths = np.linalg.norm(rows, axis=1)
         balanced: FloatArray = rows / np.where(lengths > 0.0, lengths, 1.0)[:, None]
         return balanced
+
+    def solved(self, jacobian: FloatArray, right: FloatArray, part: float) -> tuple[FloatArray, FloatArray]:
+        """The change of the coordinates, as small as can be as `balanced` measures it, for which Phi_q dq = right.
+
+        Of Phi_q, shape (rows, coordinates), and right, shape (rows,); and what each balanced row is off, shape (rows,)
+        [m]. Singular values below this `part` of the largest one count as zero.
+        """
+        rows = jacobian * self._columns
+        lengths = np.linalg.norm(rows, axis=1)
+        lengths = np.where(lengths > 0.0, lengths, 1.0)
+        rows, right = rows / lengths[:, None], right / lengths
+        change: FloatArray = np.asarray(np.linalg.lstsq(rows, right, rcond=part)[0], dtype=np.float64)
+        return change * self._columns, rows @ change - right
+
+    def most_open(self, residual: FloatArray, jacobian: FloatArray, q: FloatArray) -> float:
+        """The most that a row is off, over what it changes by where the coordinates move by the mechanism's size.
+
+        Of the residual, shape (rows,), and Phi_q, shape (rows, coordinates), at coordinates q; infinite when one is no
+        number. Far from the origin, where places are rounded, the size is a part of how far.
+        """
+        size = max(self.size, _FAR * float(np.abs(q[~self.angular]).max(initial=0.0)))
+        change = size * np.abs(jacobian * self._columns).max(axis=1, initial=0.0)
+        left = np.abs(residual) / np.where(change > 0.0, change, size)
+        return float(left.max(initial=0.0)) if np.isfinite(left).all() else np.inf
 
     def as_lengths(self, step: FloatArray) -> FloatArray:
         """A change of the coordinates, shape (coordinates,), with angles measured as `balanced` does [m]."""
@@ -152,6 +176,10 @@ class Equations:
 # Newton's method for the position rows.
 
 _STEPS = 40
+#: This part of the distance from the origin is a size at least: a row is then closed to 1000 times its rounding.
+_FAR = 2.0**-12
+#: Of rows that stay open, those are named that are off by more than this part of the worst one.
+SHOWN = 1e-3
 
 
 def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray, float]:
@@ -161,11 +189,13 @@ def close(equations: Equations, q: FloatArray, time: float) -> tuple[FloatArray,
         rows = equations.at(q, time)
         return rows.residual, rows.jacobian
 
-    return newton(rows_at, q)
+    return newton(equations, rows_at, q)
 
 
-def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: FloatArray) -> tuple[FloatArray, float]:
-    """Where the rows vanish near q, by steps of least length, and the largest magnitude that is left of them.
+def newton(
+    equations: Equations, rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: FloatArray
+) -> tuple[FloatArray, float]:
+    """Where the rows vanish near q, by steps of least length, and the most that is left of one (see `most_open`).
 
     `rows_at` gives them, shape (rows,), and their derivatives, shape (rows, coordinates). After they are closed one
     more step is taken: it takes away what rounding allows.
@@ -173,7 +203,7 @@ def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: Fl
     best, least = q, np.inf
     for _ in range(_STEPS):
         residual, jacobian = rows_at(q)
-        left = float(np.abs(residual).max(initial=0.0))
+        left = equations.most_open(residual, jacobian, q)
         if not left < np.inf:
             break
         settled = least <= CLOSED_WITHIN
@@ -181,5 +211,5 @@ def newton(rows_at: Callable[[FloatArray], tuple[FloatArray, FloatArray]], q: Fl
             best, least = q, left
         if settled or left == 0.0:
             break
-        q = q - np.linalg.lstsq(jacobian, residual, rcond=1e-8)[0]
+        q = q - equations.solved(jacobian, residual, 1e-8)[0]
     return best, least

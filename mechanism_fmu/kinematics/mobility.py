@@ -93,7 +93,7 @@ def _go(equations: Equations, q: FloatArray, time: float, way: FloatArray) -> tu
         along = way @ equations.as_lengths(p - q) - step
         return np.append(rows.residual[still], along), np.vstack([rows.jacobian[still], equations.as_lengths(way)])
 
-    return newton(rows_at, q + equations.from_lengths(step * way))
+    return newton(equations, rows_at, q + equations.from_lengths(step * way))
 
 
 def moving(equations: Equations, configurations: Sequence[FloatArray]) -> tuple[str, ...]:

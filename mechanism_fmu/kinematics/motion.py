@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -10,7 +11,7 @@ import numpy as np
 
 from ..model import Mechanism
 from ..tolerances import CLOSED_WITHIN
-from .equations import Equations, FloatArray, KinematicsError, SingularConfigurationError, close
+from .equations import SHOWN, Equations, FloatArray, KinematicsError, SingularConfigurationError, close
 from .mobility import independence, moving, rows_around
 
 # Rates and accelerations in one position, where the rows determine them.
@@ -20,6 +21,13 @@ from .mobility import independence, moving, rows_around
 SINGULAR_BELOW = 1e-5
 #: The driver is at the end of its range when more than this part of nu points where the rows cannot follow.
 _OUT_OF_REACH = 1e-3
+#: Rates and accelerations agree with a row when they miss it by less than this part of the largest of them.
+_AGREE = 1e-8
+#: What moves by less than this part of the size of the mechanism in the time of the analysis stands still: a hundred
+#: times the rounding of what drivers say.
+_STILL = 1e-7
+#: Singular values below this part of the largest one count as zero: redundant rows are as far off by rounding.
+_RANK = 1e-12
 
 
 class State(NamedTuple):
@@ -40,8 +48,10 @@ def least_singular_value(rows: FloatArray) -> float:
     return float(np.linalg.svd(rows, compute_uv=False)[-1])
 
 
-def state_at(equations: Equations, q: FloatArray, time: float) -> State:
+def state_at(equations: Equations, q: FloatArray, time: float, span: float) -> State:
     """The state at `time` [s] in a position q, shape (coordinates,), that closes the rows.
+
+    In an analysis that spans so many seconds: what would not move visibly in that time is rounding.
 
     Raises:
         KinematicsError: something is free, drivers contradict each other, or one is at the end of its range.
@@ -52,16 +62,26 @@ def state_at(equations: Equations, q: FloatArray, time: float) -> State:
     least = least_singular_value(balanced)
     if least < SINGULAR_BELOW:
         raise _undetermined(equations, q, time, balanced)
-    qd = _solve(equations, rows.jacobian, rows.nu, time, "velocity")
+    still = _STILL * equations.size / span if span > 0.0 else 0.0
+    bends = equations.as_lengths(equations.solved(rows.jacobian, rows.gamma, _RANK)[0])
+    turns_back = math.sqrt(equations.size * float(np.abs(bends).max(initial=0.0)))  # where a driver stands
+    qd = _solve(equations, rows.jacobian, rows.nu, time, "velocity", max(still, turns_back))
     gamma = equations.at(q, time, qd).gamma
-    return State(time, q, qd, _solve(equations, rows.jacobian, gamma, time, "acceleration"), balanced, least)
+    turns = float(np.square(equations.as_lengths(qd)).max(initial=0.0)) / equations.size
+    slow = still / span if span > 0.0 else 0.0
+    qdd = _solve(equations, rows.jacobian, gamma, time, "acceleration", max(turns, slow))
+    return State(time, q, qd, qdd, balanced, least)
 
 
-def _solve(equations: Equations, jacobian: FloatArray, right: FloatArray, time: float, what: str) -> FloatArray:
-    solution: FloatArray = np.asarray(np.linalg.lstsq(jacobian, right, rcond=1e-12)[0], dtype=np.float64)
-    left = np.abs(jacobian @ solution - right)
-    if left.max(initial=0.0) > 1e-8 * max(1.0, float(np.abs(right).max(initial=0.0))):
-        worst = ", ".join(equations.rows[k] for k in np.argsort(-left)[:4] if left[k] > 1e-3 * left.max())
+def _solve(
+    equations: Equations, jacobian: FloatArray, right: FloatArray, time: float, what: str, terms: float
+) -> FloatArray:
+    """Rates or accelerations that agree with all rows, but for the rounding of these and of `terms` of such a size."""
+    solution, off = equations.solved(jacobian, right, _RANK)
+    left = np.abs(off)
+    size = float(np.abs(equations.as_lengths(solution)).max(initial=0.0))
+    if left.max(initial=0.0) > _AGREE * max(size, terms):
+        worst = ", ".join(equations.rows[k] for k in np.argsort(-left)[:4] if left[k] > SHOWN * left.max())
         raise KinematicsError(
             f"At t = {time:.9g} s no {what} agrees with all rows: {worst} differ by {left.max():.3g}. Drivers "
             "contradict each other; take one out, or let their motions agree at all times."
@@ -110,8 +130,8 @@ _MOST_TURN = 0.5
 _SHORTEST = 1e-14
 
 
-def follow(equations: Equations, here: State, time: float) -> State:
-    """The state at `time` [s], later than `here`.
+def follow(equations: Equations, here: State, time: float, span: float) -> State:
+    """The state at `time` [s], later than `here`, in an analysis that spans so many seconds.
 
     Raises:
         KinematicsError: as of `state_at`, or the rows cannot be closed.
@@ -124,7 +144,7 @@ def follow(equations: Equations, here: State, time: float) -> State:
         h = target - here.time
         q, left = close(equations, here.q + h * here.qd + 0.5 * h * h * here.qdd, target)
         if left <= CLOSED_WITHIN and _is_same_motion(equations, here, q, target):
-            here = state_at(equations, q, target)
+            here = state_at(equations, q, target, span)
             step *= 2.0
         elif step > shortest:
             step *= 0.5
@@ -144,8 +164,10 @@ def _is_same_motion(equations: Equations, here: State, q: FloatArray, time: floa
 
 
 def _lost(equations: Equations, here: State, q: FloatArray, time: float) -> KinematicsError:
-    residual = np.abs(equations.at(q, time).residual)
-    worst = [equations.rows[k] for k in np.argsort(-residual)[:4] if residual[k] > CLOSED_WITHIN]
+    rows = equations.at(q, time)
+    residual = np.abs(rows.residual)
+    is_open = equations.most_open(rows.residual, rows.jacobian, q) > CLOSED_WITHIN
+    worst = [equations.rows[k] for k in np.argsort(-residual)[:4] if is_open and residual[k] > SHOWN * residual.max()]
     what = f"{', '.join(worst)} stay open by {residual.max():.3g} (m, or rad)" if worst else "the next one is far away"
     return KinematicsError(
         f"Behind t = {here.time:.9g} s no position is found that goes on from there: {what}. A profile has an edge, "
@@ -208,8 +230,9 @@ def analyse(mechanism: Mechanism, times: Sequence[float] | FloatArray) -> Kinema
     if grid.ndim != 1 or len(grid) == 0 or not np.all(np.isfinite(grid)) or np.any(np.diff(grid) <= 0.0):
         raise KinematicsError("The times must be finite and increase; give at least one.")
     equations = Equations(replace(mechanism, held=()), grid[0])
-    states = [state_at(equations, equations.start, grid[0])]
+    span = float(grid[-1] - grid[0])
+    states = [state_at(equations, equations.start, grid[0], span)]
     for time in grid[1:]:
-        states.append(follow(equations, states[-1], time))
+        states.append(follow(equations, states[-1], time, span))
     position, velocity, acceleration = (np.array([state[k] for state in states]) for k in (1, 2, 3))
     return KinematicMotion(equations.coordinates, grid, position, velocity, acceleration)

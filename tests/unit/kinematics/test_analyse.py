@@ -7,7 +7,17 @@ import numpy as np
 import pytest
 
 from mechanism_fmu.kinematics import KinematicsError, SingularConfigurationError, analyse
-from mechanism_fmu.model import GROUND, AngleDriver, Body, Mechanism, MechanismError, Revolute, Term, XDriver
+from mechanism_fmu.model import (
+    GROUND,
+    AngleDriver,
+    Body,
+    Mechanism,
+    MechanismError,
+    Revolute,
+    Term,
+    XDriver,
+    rigid_body,
+)
 from mechanism_fmu.model.curves.motions import harmonic_motion, polynomial_motion
 from mechanism_fmu.model.curves.profiles import piecewise_profile
 from models.four_bar.model import MODEL
@@ -160,3 +170,58 @@ def test_times_must_increase(times):
 def test_an_unknown_coordinate_is_answered_with_the_known_ones():
     with pytest.raises(KinematicsError, match=r"no coordinate 'crank'; there are: crank0\.x, "):
         analyse(cranks(2), [0.0]).of("crank")
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1e2])
+@pytest.mark.parametrize("speed", [1e-9, 1.0, 1e6])
+def test_angles_do_not_know_of_metres_and_seconds(scale, speed):
+    """A four-bar linkage of any size at any speed."""
+    times = np.linspace(0.0, 6.0, 13)
+    known = analyse(four_bar_of(1.0, 1.0), times)
+    found = analyse(four_bar_of(scale, speed), times / speed)
+    turn = known.of("rocker.angle")
+    for order, (one, other) in enumerate(zip(found.of("rocker.angle"), turn, strict=True)):
+        np.testing.assert_allclose(one / speed**order, other, rtol=0, atol=1e-11)
+
+
+def four_bar_of(scale, speed, far=0.0):
+    """A crank-rocker whose ground is 0.2 long, times a scale, and so far away [m]; its crank has a speed [rad/s]."""
+    crank, coupler, rocker = (
+        rigid_body(name, (far + scale * x, scale * y), mass=1, inertia=scale**2, angle=angle)
+        for name, x, y, angle in (("crank", 0, 0, 0.5), ("coupler", 0.088, 0.048, 0.9), ("rocker", 0.2, 0, 1.6))
+    )
+    joints = (
+        Revolute("a0", crank.at(0, 0), GROUND.at(far, 0)),
+        Revolute("a", crank.at(0.1 * scale, 0), coupler.at(0, 0)),
+        Revolute("b", coupler.at(0.25 * scale, 0), rocker.at(0.22 * scale, 0)),
+        Revolute("b0", rocker.at(0, 0), GROUND.at(far + 0.2 * scale, 0)),
+        AngleDriver("drive", crank, motion=polynomial_motion(0.5, speed)),
+    )
+    return Mechanism((crank, coupler, rocker), joints)
+
+
+@pytest.mark.parametrize("far", [1.0, 1e3])
+def test_a_linkage_far_from_the_origin_has_the_same_angles(far):
+    """As far as places there are rounded."""
+    times = np.linspace(0.0, 6.0, 13)
+    known = analyse(four_bar_of(1e-3, 1.0), times).of("rocker.angle")[0]
+    found = analyse(four_bar_of(1e-3, 1.0, far * 1e-3), times).of("rocker.angle")[0]
+    np.testing.assert_allclose(found, known, rtol=0, atol=1e-14 * far + 1e-12)
+
+
+@pytest.mark.parametrize("times", [[0.0, math.pi / 4], [0.0, 1.0, 2.0]])
+def test_drivers_that_agree_do_no_harm_where_they_turn_back(times):
+    """Where both stand, their speeds differ by rounding."""
+    motions = [harmonic_motion(0.4, 0.5, 2.0, 0.5 * math.pi + turn) for turn in (0.0, math.tau)]
+    drivers = [AngleDriver(f"drive{k}", f"crank{k}", motion=motion) for k, motion in enumerate(motions)]
+    motion = analyse(driven(parallel_cranks(2, 0.9), *drivers), times)
+    np.testing.assert_allclose(motion.of("crank1.angle")[0], 0.4 + 0.5 * np.cos(2.0 * motion.time), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("speed", [1e-9, 1.0, 1e6])
+def test_slow_drivers_that_contradict_each_other_are_named(speed):
+    """By 1e-6 of their speed, whatever that is."""
+    two = (turning(name, "crank0", 0.4, rate) for name, rate in (("one", speed), ("other", 1.000001 * speed)))
+    mechanism = driven(parallel_cranks(2, 0.4), *two)
+    with pytest.raises(KinematicsError, match="no velocity agrees with all rows"):
+        analyse(mechanism, [0.0, 1e-6 / speed])
